@@ -1,0 +1,40 @@
+#pragma once
+/// The Coulomb field of point charges at the points themselves:
+///
+///     E_i = sum_{j != i} q_j (r_i - r_j) / |r_i - r_j|^3 .
+///
+/// A library of its own: points and charges in, field out; it knows nothing of jets.
+/// Invariants: coordinates are D separate contiguous arrays of n doubles; a row of the field depends on the points
+/// and charges only, never on how rows are shared among threads or ranks, so its bits are the same for any number
+/// of workers. The units are those of q / length^2. Two points at the same place give a non-finite field.
+/// Source: paper, Sec. "Equations of motion", net Coulomb force.
+
+#include <array>
+
+#include "parallel/rows.hpp"
+
+namespace treejet {
+
+template <int D>
+struct PointCharges {
+  std::array<const double*, D> r;
+  const double* q;
+  int n;
+};
+
+template <int D>
+using FieldArrays = std::array<double*, D>;  ///< D arrays, indexed by point like the coordinates
+
+/// The reference, written plainly: the rows of E by direct summation in the order of j.
+/// `reach` keeps the pairs with |i - j| <= reach only (the deck's cutoff); reach >= n is the whole sum.
+template <int D>
+void coulomb_plain(const PointCharges<D>& points, Rows rows, const FieldArrays<D>& field, int reach);
+
+/// The same whole sum for wide vectors, the best path this machine has, chosen at run time.
+template <int D>
+void coulomb_direct(const PointCharges<D>& points, Rows rows, const FieldArrays<D>& field);
+
+/// The name of that path: "avx512", "avx2" or "plain".
+const char* vector_path();
+
+}  // namespace treejet
