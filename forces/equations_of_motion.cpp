@@ -1,0 +1,41 @@
+#include "forces/equations_of_motion.hpp"
+
+#include <algorithm>
+
+namespace treejet {
+
+namespace {
+constexpr int block = 16;  // rows; the width of the Coulomb kernels' target blocks
+}
+
+template <int D>
+Threads EquationsOfMotion<D>::worthwhile(int beads) const {
+  return {std::clamp(beads / beads_worth_a_thread, 1, threads_.count)};
+}
+
+template <int D>
+void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
+  const int n = static_cast<int>(y.rows());
+  slope.resize(n, Eigen::NoChange);
+  if (n == 0) return;
+  const Threads threads = worthwhile(n);
+
+  set_boundary<D>(chain_, jet, nozzle_, t, y);
+  for_each_block(threads, {0, n}, block, [&](Rows rows) {
+    set_elements<D>(chain_, jet, nozzle_, t, y, {rows.first, rows.last});
+  });
+  for (auto& term : terms_) term->prepare(chain_);
+  for_each_block(threads, {0, n}, block, [&](Rows rows) {
+    slope.middleRows(rows.first, rows.size()).template leftCols<D>() =
+        y.middleRows(rows.first, rows.size()).template middleCols<D>(velocity_column<D>);
+    slope.middleRows(rows.first, rows.size()).template middleCols<D>(velocity_column<D>).setZero();
+    stress_law_->set(chain_, rows, slope.col(stress_column<D>));
+    Acceleration<D> acceleration = slope.template middleCols<D>(velocity_column<D>);
+    for (auto& term : terms_) term->add(chain_, rows, acceleration);
+  });
+}
+
+template class EquationsOfMotion<1>;
+template class EquationsOfMotion<3>;
+
+}  // namespace treejet

@@ -1,0 +1,46 @@
+#pragma once
+/// The equations of motion: the terms that a scene names, summed. The only right-hand side of the program.
+///
+///     dr_i/dt = v_i ,    m_i dv_i/dt = sum of the force terms ,    d sigma_i/dt = constitutive equation .
+///
+/// A term that is left out is not here: no test, no array. Every row is computed by one thread, in the order of the
+/// terms, so the bits of the result do not depend on the number of threads.
+/// Source: paper, Sec. "Equations of motion", scaled form.
+
+#include <memory>
+#include <vector>
+
+#include "core/motion.hpp"
+#include "core/nozzle.hpp"
+#include "forces/term.hpp"
+#include "parallel/threads.hpp"
+
+namespace treejet {
+
+template <int D>
+class EquationsOfMotion final : public Motion<D> {
+ public:
+  EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<StressLaw<D>> stress_law,
+                    std::vector<std::unique_ptr<ForceTerm<D>>> terms, Threads threads)
+      : nozzle_(std::move(nozzle)), stress_law_(std::move(stress_law)), terms_(std::move(terms)), threads_(threads) {}
+
+  void operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) override;
+
+  const StressLaw<D>& stress_law() const { return *stress_law_; }
+  const std::vector<std::unique_ptr<ForceTerm<D>>>& terms() const { return terms_; }
+
+ private:
+  Threads worthwhile(int beads) const;
+
+  Nozzle<D> nozzle_;
+  std::unique_ptr<StressLaw<D>> stress_law_;
+  std::vector<std::unique_ptr<ForceTerm<D>>> terms_;
+  Threads threads_;
+  Chain<D> chain_;
+};
+
+/// Fewer beads than this a thread do not repay waking the thread: with 2 threads a Coulomb sum over 128 beads takes
+/// about as long as with 1, and each doubling of the beads is four times the work.
+constexpr int beads_worth_a_thread = 64;
+
+}  // namespace treejet
