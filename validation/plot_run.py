@@ -111,18 +111,23 @@ def draw_jet(time, r, target):
     style = dict(array=along, cmap=COLOURS, linewidths=2, capstyle="round", norm=plt.Normalize(0, from_nozzle[0]))
 
     length = np.ptp(r[:, 0])
-    half = 1.08 * max(np.abs(r[:, 1:]).max(), 0.12 * length)
+    off_axis = 1.08 * np.abs(r[:, 1:]).max()
+    half = max(off_axis, 0.16 * length)
     bottom, top = r[:, 0].max() + 0.02 * length, min(0.0, r[:, 0].min())
 
     figure = plt.figure(figsize=(9.6, 5.6))
-    space = figure.add_axes([0.0, 0.0, 0.47, 0.95], projection="3d")
+    space = figure.add_axes([0.01, 0.06, 0.46, 0.88], projection="3d")
     hanging = r[:, [1, 2, 0]]
     space.add_collection3d(Line3DCollection(np.stack([hanging[:-1], hanging[1:]], axis=1), **style))
     space.plot(*hanging[-1:].T, "v", color=INK, markersize=7)
     space.set(xlim=(-half, half), ylim=(-half, half), zlim=(bottom, top))
-    space.set_box_aspect((2 * half, 2 * half, bottom - top), zoom=1.1)
+    space.set_box_aspect((2 * half, 2 * half, bottom - top), zoom=1.0)
     space.view_init(elev=14, azim=-60)
-    space.set(xlabel="y (cm)", ylabel="z (cm)", zlabel="x (cm)")
+    space.set_xlabel("y (cm)", labelpad=-2)
+    space.set_ylabel("z (cm)", labelpad=-2)
+    space.set_zlabel("x (cm)", labelpad=6)
+    space.tick_params(pad=0)
+    space.zaxis.set_tick_params(pad=6)
     for axis, bins in ((space.xaxis, 3), (space.yaxis, 3), (space.zaxis, 6)):
         axis.set_major_locator(MaxNLocator(bins))
         axis.pane.set(facecolor="1.0", edgecolor="0.85")
@@ -132,7 +137,7 @@ def draw_jet(time, r, target):
     across = r[:, 1:]
     jet = plane.add_collection(LineCollection(np.stack([across[:-1], across[1:]], axis=1), **style))
     plane.plot(*across[-1], "v", color=INK, markersize=7, label="nozzle")
-    plane.set(xlim=(-half, half), ylim=(-half, half), aspect="equal", xlabel="y (cm)", ylabel="z (cm)")
+    plane.set(xlim=(-off_axis, off_axis), ylim=(-off_axis, off_axis), aspect="equal", xlabel="y (cm)", ylabel="z (cm)")
     plane.legend(frameon=False, loc="upper right")
     box = plane.get_position()
     bar = figure.colorbar(jet, cax=figure.add_axes([0.91, box.y0 + 0.1 * box.height, 0.014, 0.8 * box.height]))
@@ -150,6 +155,8 @@ def draw_history(path, target):
         header = file.readline()
         keys = [re.sub(r"\[.*", "", word) for word in re.findall(r"[^\s\[]+(?:\[[^\]]*\])?", header.lstrip("#"))]
         rows = [line.split() for line in file if line.strip() and line.endswith("\n")]
+    if not header:
+        raise Unreadable(f"{path}: is empty")
     if not header.startswith("#") or not keys:
         raise Unreadable(f"{path}: expected a first line `# t[s] key[unit] ...`")
     if not rows:
