@@ -4,13 +4,14 @@
 ///     E_i = sum_{j != i} q_j (r_i - r_j) / |r_i - r_j|^3 .
 ///
 /// A library of its own: points and charges in, field out; it knows nothing of jets.
-/// Invariants: coordinates are D separate contiguous arrays of n doubles; a row of the field depends on the points
-/// and charges only, never on how rows are shared among threads or ranks, so its bits are the same for any number
-/// of workers. The units are those of q / length^2. Two points at the same place give a non-finite field.
-/// Source: paper, Sec. "Equations of motion", net Coulomb force.
+/// Invariants: coordinates are D separate contiguous arrays of n doubles; a row of the field depends on the
+/// points and charges only, never on how rows are shared among threads or ranks, so its bits are the same for
+/// any number of workers. The units are those of q / length^2. Two points at the same place give a non-finite
+/// field. Source: paper, Sec. "Equations of motion", net Coulomb force.
 
 #include <array>
 
+#include "forces/vector_path.hpp"
 #include "parallel/rows.hpp"
 
 namespace treejet {
@@ -30,11 +31,15 @@ using FieldArrays = std::array<double*, D>;  ///< D arrays, indexed by point lik
 template <int D>
 void coulomb_plain(const PointCharges<D>& points, Rows rows, const FieldArrays<D>& field, int reach);
 
-/// The same whole sum for wide vectors, the best path this machine has, chosen at run time.
+/// The same whole sum for wide vectors, by the default path of this machine (forces/vector_path.hpp).
 template <int D>
 void coulomb_direct(const PointCharges<D>& points, Rows rows, const FieldArrays<D>& field);
 
-/// The name of that path: "avx512", "avx2" or "plain".
+/// The same by a path named by the caller.
+template <int D>
+void coulomb_direct(const PointCharges<D>& points, Rows rows, const FieldArrays<D>& field, VectorPath path);
+
+/// The name of the default path: "avx512", "avx2" or "plain".
 const char* vector_path();
 
 }  // namespace treejet

@@ -1,15 +1,27 @@
 #include "forces/coulomb.hpp"
+#include "forces/wide_kernels.hpp"
 
 namespace treejet {
 
 template <int D>
-void coulomb_direct(const PointCharges<D>& points, Rows rows, const FieldArrays<D>& field) {
-  coulomb_plain<D>(points, rows, field, points.n);
+void coulomb_direct(const PointCharges<D>& points, Rows rows, const FieldArrays<D>& field, VectorPath path) {
+  const WideKernels& kernels = wide_kernels(path);
+  const auto direct = D == 1 ? kernels.direct_1d : kernels.direct_3d;
+  direct(points.r.data(), points.q, points.n, rows, field.data());
 }
 
+template <int D>
+void coulomb_direct(const PointCharges<D>& points, Rows rows, const FieldArrays<D>& field) {
+  coulomb_direct<D>(points, rows, field, default_path());
+}
+
+template void coulomb_direct<1>(const PointCharges<1>&, Rows, const FieldArrays<1>&, VectorPath);
+template void coulomb_direct<3>(const PointCharges<3>&, Rows, const FieldArrays<3>&, VectorPath);
 template void coulomb_direct<1>(const PointCharges<1>&, Rows, const FieldArrays<1>&);
 template void coulomb_direct<3>(const PointCharges<3>&, Rows, const FieldArrays<3>&);
 
-const char* vector_path() { return "plain"; }
+const char* vector_path() {
+  return name(default_path());
+}
 
 }  // namespace treejet

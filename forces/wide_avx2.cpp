@@ -1,0 +1,31 @@
+// The wide kernels for AVX2 with FMA, compiled for it alone: see wide_kernels.hpp before adding an include.
+#include <immintrin.h>
+
+#include "forces/direct_kernel.hpp"
+#include "forces/wide_kernels.hpp"
+
+namespace treejet {
+namespace {
+
+struct Avx2 {
+  static constexpr int lanes = 4, groups = 2;
+  using Pack = Wide<double, lanes>;
+
+  /// q d2^(-3/2) from a float start of 12 bits and the series of (1 - e)^(-3/2) to e^4, as in
+  /// wide_avx512.cpp. A d2 outside the range of float gives a start of 0 or infinity: such rare pairs are
+  /// divided out instead.
+  static Pack over_cube(double q, Pack d2) {
+    const __m128 start = _mm_rsqrt_ps(_mm256_cvtpd_ps(d2));
+    const __m128 usable = _mm_cmplt_ps(_mm_sub_ps(start, start), start);
+    if (__builtin_expect(_mm_movemask_ps(usable) != 15, 0)) return q / (d2 * _mm256_sqrt_pd(d2));
+    const Pack y = _mm256_cvtps_pd(start), y2 = y * y;
+    const Pack e = 1 - d2 * y2;
+    return (q * y) * y2 * (1 + e * (3. / 2 + e * (15. / 8 + e * (35. / 16 + e * (315. / 128)))));
+  }
+};
+
+}  // namespace
+
+const WideKernels wide_avx2 = {direct<Avx2, 1>, direct<Avx2, 3>};
+
+}  // namespace treejet
