@@ -26,6 +26,8 @@ void for_each_block(Threads threads, Rows rows, int block, const std::function<v
   if (failure) std::rethrow_exception(failure);
 }
 
-int available_cores() { return omp_get_num_procs(); }
+int available_cores() {
+  return omp_get_num_procs();
+}
 
 }  // namespace treejet
