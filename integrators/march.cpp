@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "integrators/diagnosis.hpp"
+#include "integrators/error_norm.hpp"
 
 namespace treejet {
 
@@ -101,20 +102,6 @@ double March<D>::predicted_event(double horizon) const {
 }
 
 template <int D>
-double March<D>::scaled_error() const {
-  const Table<D>& e = parts_.stepper.error;
-  if (e.rows() == 0) return 0;
-  const double l = parts_.nozzle.l_step();
-  const double length = e.template leftCols<D>().abs().maxCoeff() / l;
-  const double speed = e.template middleCols<D>(D).abs().maxCoeff() / l;
-  const double stress = e.col(stress_column<D>).abs().maxCoeff();
-  // max() would let a NaN pass
-  const double largest = std::max({length, speed, stress});
-  return std::isfinite(length + speed + stress) ? largest / parts_.tolerance
-                                                : std::numeric_limits<double>::quiet_NaN();
-}
-
-template <int D>
 void March<D>::step(double h) {
   parts_.stepper.step(parts_.motion, parts_.jet, now_, h, next_.y);
   next_.t = now_.t + h;
@@ -126,14 +113,10 @@ void March<D>::step(double h) {
 /// met on the extrapolated solution.
 template <int D>
 double March<D>::attempt(double end) {
-  const bool aims = parts_.control.steps_to_events() && parts_.events == EventRule::located;
-  double aim = 0;
   while (true) {
     double h = parts_.control.proposal(now_.t, end);
-    bool aimed = aim > 0 && aim <= 1.1 * h;
-    if (aimed) {
-      h = aim;
-    } else if (aims) {
+    bool aimed = false;
+    if (aims()) {
       const double ahead = predicted_event(2.2 * h);
       aimed = ahead <= 1.1 * h;
       if (aimed)
@@ -148,9 +131,11 @@ double March<D>::attempt(double end) {
                       "the tolerance cannot be met; beads have met, or the tolerance is too small"));
     }
     step(h);
-    if (!parts_.control.accepts(now_.t, h, scaled_error())) {
+    const bool estimated = parts_.stepper.error.rows() > 0;
+    const double error =
+        estimated ? error_norm<D>(parts_.stepper.error, now_.y, parts_.nozzle.l_step()) / parts_.tolerance : 0;
+    if (!parts_.control.accepts(now_.t, h, error)) {
       ++effort_.rejected;
-      aim = 0;
       continue;
     }
     return aimed ? next_.t + dense_fraction * h : next_.t;
@@ -187,7 +172,7 @@ template <int D>
 std::optional<typename March<D>::Due> March<D>::located_event(double reach) {
   const double h = next_.t - now_.t;
   auto due = first_event(Segment<D>(now_, next_), reach);
-  if (due && parts_.control.steps_to_events() && due->t < next_.t - dense_fraction * h) {
+  if (due && aims() && due->t < next_.t - dense_fraction * h) {
     ++effort_.redone;
     step(due->t - now_.t);
     evaluate(next_);
@@ -211,8 +196,10 @@ void March<D>::commit(std::optional<Due> due) {
     now_.y = parts_.jet.y;
     if (now_.y.rows() > 0) evaluate(now_);
   } else {
-    youngest_jerk_ = segment.jerk_at_end(now_.y.rows() - 1);
-    oldest_jerk_ = segment.jerk_at_end(0);
+    if (aims()) {
+      youngest_jerk_ = segment.jerk_at_end(now_.y.rows() - 1);
+      oldest_jerk_ = segment.jerk_at_end(0);
+    }
     std::swap(now_, next_);
   }
 }

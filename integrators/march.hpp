@@ -55,11 +55,11 @@ class March {
     bool insertion;
   };
 
+  bool aims() const { return parts_.control.steps_to_events() && parts_.events == EventRule::located; }
   void evaluate(Node<D>& node);
   void step(double h);
   double attempt(double end);
   std::optional<Due> located_event(double reach);
-  double scaled_error() const;
   double overdue(bool insertion, const Table<D>& y, double t) const;
   double overdue(bool insertion, const Segment<D>& segment, double t);
   double predicted_event(double from_now) const;

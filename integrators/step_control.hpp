@@ -3,12 +3,9 @@
 ///
 /// Fixed: steps end on the grid k dt. An event inside a step splits it; the next step leads back to the grid.
 ///
-/// By tolerance: the local error of a step is
-///     err = max over beads of ( |e_r| / (w_r L_step), |e_v| / (w_v V), |e_sigma| / w_sigma ) / tolerance
-/// with e the error estimate of the embedded pair, all scaled. A maximum, not a mean: nearly all of the error
-/// sits on the youngest bead, where an average over the chain hides it. A step with err <= 1 is accepted, and
-/// the next one is h * safety * err^-alpha * previous_err^beta (proportional-integral control). Source of the
-/// controller: Hairer, Norsett, Wanner, "Solving ODEs I", II.4; Gustafsson (1991).
+/// By tolerance: a step stands if its local error, integrators/error_norm.hpp over the tolerance, is at most 1; the
+/// next one is h * 0.9 * error^-alpha * previous_error^beta (proportional-integral control).
+/// Source of the controller: Hairer, Norsett, Wanner, "Solving ODEs I", II.4; Gustafsson (1991).
 
 #include <algorithm>
 #include <cmath>

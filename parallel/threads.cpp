@@ -8,10 +8,10 @@
 
 namespace treejet {
 
-void for_each_block(Threads threads, Rows rows, int block, const std::function<void(Rows)>& f) {
+void for_each_block_threaded(Threads threads, Rows rows, int block, const std::function<void(Rows)>& f) {
   if (rows.size() <= 0) return;
   const int first_block = rows.first / block, last_block = (rows.last - 1) / block;
-  if (threads.count <= 1 || first_block == last_block) return f(rows);
+  if (first_block == last_block) return f(rows);
 
   std::exception_ptr failure;
   std::atomic_flag failed = ATOMIC_FLAG_INIT;

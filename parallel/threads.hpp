@@ -16,8 +16,15 @@ struct Threads {
   int count = 1;
 };
 
+/// Calls f on blocks that cover `rows`, on several threads.
+void for_each_block_threaded(Threads threads, Rows rows, int block, const std::function<void(Rows)>& f);
+
 /// Calls f on blocks that cover `rows`; with one thread a single call f(rows).
-void for_each_block(Threads threads, Rows rows, int block, const std::function<void(Rows)>& f);
+template <class F>
+void for_each_block(Threads threads, Rows rows, int block, const F& f) {
+  if (threads.count > 1) return for_each_block_threaded(threads, rows, block, std::cref(f));
+  if (rows.size() > 0) f(rows);
+}
 
 /// Cores this process may run on (affinity respected).
 int available_cores();
