@@ -38,10 +38,16 @@ class CoulombForce final : public ForceTerm<D> {
     }
   }
 
+  double Q() const { return Q_; }
+  bool whole(int points) const { return reach_ >= points - 1; }  ///< no pair is cut off
+
+  /// E at the beads, as `add` last computed it.
+  const typename Chain<D>::Points& field() const { return field_; }
+
  private:
   double Q_;
   int reach_;
-  mutable Eigen::Array<double, Eigen::Dynamic, D> field_;  ///< each row is written and read by its owner only
+  mutable typename Chain<D>::Points field_;  ///< each row is written and read by its owner only
 };
 
 }  // namespace treejet

@@ -11,6 +11,18 @@ constexpr int block = 16;  // rows; the width of the Coulomb kernels' target blo
 }
 
 template <int D>
+EquationsOfMotion<D>::EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<StressLaw<D>> stress_law,
+                                        std::vector<std::unique_ptr<ForceTerm<D>>> terms, Threads threads)
+    : nozzle_(std::move(nozzle)),
+      stress_law_(std::move(stress_law)),
+      terms_(std::move(terms)),
+      threads_(threads) {
+  for (auto& term : terms_) {
+    if (auto* coulomb = dynamic_cast<CoulombForce<D>*>(term.get())) coulomb_ = coulomb;
+  }
+}
+
+template <int D>
 Threads EquationsOfMotion<D>::worthwhile(int beads) const {
   return {std::clamp(beads / beads_worth_a_thread, 1, threads_.count)};
 }
@@ -28,13 +40,22 @@ void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const Table<D
   });
   for (auto& term : terms_) term->prepare(chain_);
   for_each_block(threads, {0, n}, block, [&](Rows rows) {
-    slope.middleRows(rows.first, rows.size()).template leftCols<D>() =
-        y.middleRows(rows.first, rows.size()).template middleCols<D>(velocity_column<D>);
-    slope.middleRows(rows.first, rows.size()).template middleCols<D>(velocity_column<D>).setZero();
-    stress_law_->set(chain_, rows, slope.col(stress_column<D>));
+    set_local(chain_, y, rows, slope);
     Acceleration<D> acceleration = slope.template middleCols<D>(velocity_column<D>);
-    for (auto& term : terms_) term->add(chain_, rows, acceleration);
+    if (coulomb_) coulomb_->add(chain_, rows, acceleration);
   });
+}
+
+template <int D>
+void EquationsOfMotion<D>::set_local(const Chain<D>& chain, const Table<D>& y, Rows rows, Table<D>& slope) const {
+  const int i = rows.first, n = rows.size();
+  slope.middleRows(i, n).template leftCols<D>() = y.middleRows(i, n).template middleCols<D>(velocity_column<D>);
+  slope.middleRows(i, n).template middleCols<D>(velocity_column<D>).setZero();
+  stress_law_->set(chain, rows, slope.col(stress_column<D>));
+  Acceleration<D> acceleration = slope.template middleCols<D>(velocity_column<D>);
+  for (auto& term : terms_) {
+    if (term.get() != coulomb_) term->add(chain, rows, acceleration);
+  }
 }
 
 template class EquationsOfMotion<1>;

@@ -13,6 +13,7 @@
 
 #include "core/motion.hpp"
 #include "core/nozzle.hpp"
+#include "forces/coulomb_force.hpp"
 #include "forces/term.hpp"
 #include "parallel/threads.hpp"
 
@@ -22,14 +23,18 @@ template <int D>
 class EquationsOfMotion final : public Motion<D> {
  public:
   EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<StressLaw<D>> stress_law,
-                    std::vector<std::unique_ptr<ForceTerm<D>>> terms, Threads threads)
-      : nozzle_(std::move(nozzle)),
-        stress_law_(std::move(stress_law)),
-        terms_(std::move(terms)),
-        threads_(threads) {}
+                    std::vector<std::unique_ptr<ForceTerm<D>>> terms, Threads threads);
 
   void operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) override;
 
+  /// Everything but the Coulomb force, which couples all beads, for the slopes of `rows`.
+  void set_local(const Chain<D>& chain, const Table<D>& y, Rows rows, Table<D>& slope) const;
+
+  /// The Coulomb force, null in a scene without charge, and the chain, both as the last evaluation left them.
+  const CoulombForce<D>* coulomb() const { return coulomb_; }
+  const Chain<D>& chain() const { return chain_; }
+
+  const Nozzle<D>& nozzle() const { return nozzle_; }
   const StressLaw<D>& stress_law() const { return *stress_law_; }
   const std::vector<std::unique_ptr<ForceTerm<D>>>& terms() const { return terms_; }
 
@@ -39,6 +44,7 @@ class EquationsOfMotion final : public Motion<D> {
   Nozzle<D> nozzle_;
   std::unique_ptr<StressLaw<D>> stress_law_;
   std::vector<std::unique_ptr<ForceTerm<D>>> terms_;
+  CoulombForce<D>* coulomb_ = nullptr;  ///< one of the terms
   Threads threads_;
   Chain<D> chain_;
 };

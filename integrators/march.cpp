@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "integrators/diagnosis.hpp"
-#include "integrators/error_norm.hpp"
+#include "core/error_norm.hpp"
 
 namespace treejet {
 
@@ -20,7 +20,7 @@ constexpr double simultaneous = 1e-12;
 
 template <int D>
 void March<D>::evaluate(Node<D>& node) {
-  parts_.motion(parts_.jet, node.t, node.y, node.slope);
+  parts_.motion.at_node(parts_.jet, node.t, node.y, node.slope);
   ++effort_.evaluations;
 }
 
@@ -210,6 +210,7 @@ void March<D>::insertion() {
   const EventKind kind = jet.held ? EventKind::release : EventKind::place;
   if (jet.held) {
     parts_.nozzle.release(jet);
+    parts_.motion.after_release(jet);
     ++effort_.released;
   } else {
     parts_.nozzle.place(jet);
@@ -229,6 +230,7 @@ void March<D>::removal() {
                     jet.t));
   }
   for (auto* w : parts_.watchers) w->event(EventKind::removal, jet);
+  parts_.motion.before_removal(jet);
   drop_first<D>(jet);
   ++effort_.removed;
   parts_.control.event(EventKind::removal);

@@ -3,7 +3,7 @@
 ///
 /// Fixed: steps end on the grid k dt. An event inside a step splits it; the next step leads back to the grid.
 ///
-/// By tolerance: a step stands if its local error, integrators/error_norm.hpp over the tolerance, is at most 1; the
+/// By tolerance: a step stands if its local error, core/error_norm.hpp over the tolerance, is at most 1; the
 /// next one is h * 0.9 * error^-alpha * previous_error^beta (proportional-integral control).
 /// Source of the controller: Hairer, Norsett, Wanner, "Solving ODEs I", II.4; Gustafsson (1991).
 
