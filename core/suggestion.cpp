@@ -8,6 +8,7 @@
 namespace treejet {
 
 namespace {
+constexpr std::size_t shortest_stem = 3;
 int allowance(std::string_view known) {
   return (static_cast<int>(known.size()) + 1) / 3;
 }
@@ -31,9 +32,12 @@ int edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-bool resembles(std::string_view a, std::string_view b) {
-  const auto difference = static_cast<long>(a.size()) - static_cast<long>(b.size());
-  return std::abs(difference) <= allowance(b) && edit_distance(a, b) <= allowance(b);
+bool resembles(std::string_view word, std::string_view known) {
+  if (std::min(word.size(), known.size()) >= shortest_stem &&
+      (known.starts_with(word) || word.starts_with(known)))
+    return true;
+  const auto difference = static_cast<long>(word.size()) - static_cast<long>(known.size());
+  return std::abs(difference) <= allowance(known) && edit_distance(word, known) <= allowance(known);
 }
 
 }  // namespace treejet

@@ -48,26 +48,36 @@ bool each_word_resembles(std::span<const std::string> line, std::string_view spe
   return true;
 }
 
+template <class Wanted>
+const Spelling* longest(std::span<const std::string> line, Wanted wanted) {
+  const Spelling* best = nullptr;
+  for (const Spelling& s : spellings())
+    if (wanted(s) && (!best || s.words > best->words) && first_words(line, s.words) == s.text) best = &s;
+  return best;
+}
+
 }  // namespace
 
 const Spelling* spelling_at_start(std::span<const std::string> line) {
-  const Spelling* longest = nullptr;
-  for (const Spelling& s : spellings())
-    if ((!longest || s.words > longest->words) && first_words(line, s.words) == s.text) longest = &s;
-  return longest;
+  return longest(line, [](const Spelling&) { return true; });
+}
+
+const Spelling* directive_at_start(std::span<const std::string> line) {
+  return longest(line, [](const Spelling& s) { return s.directive != nullptr; });
 }
 
 const Spelling* nearest_spelling(std::span<const std::string> line, std::size_t words) {
+  const bool first_word_known = !directives_beginning_with(line[0]).empty();
   const Spelling* best = nullptr;
   int least = 0;
   for (const Spelling& s : spellings()) {
-    if (s.words <= words || s.words > line.size()) continue;
+    if (s.words <= words || s.words > line.size() || (s.words == 1 && first_word_known)) continue;
     if (!each_word_resembles(line, s.text)) continue;
     const int distance = edit_distance(first_words(line, s.words), s.text);
     if (!best || distance < least) best = &s, least = distance;
   }
   for (const Spelling& s : spellings())  // blanks forgotten: finaltime, print_time
-    if (!best && words == 0 && s.words > 1 && resembles(line[0], s.text)) best = &s;
+    if (!best && words == 0 && !first_word_known && s.words > 1 && resembles(line[0], s.text)) best = &s;
   return best;
 }
 
