@@ -16,11 +16,11 @@ int allowance(std::string_view known) {
 
 int edit_distance(std::string_view a, std::string_view b) {
   // row[j] = distance between the first i letters of a and the first j of b
-  std::vector<int> row(b.size() + 1), last(b.size() + 1), last_but_one;
+  std::vector<int> row(b.size() + 1), last(row), last_but_one(row);
   std::iota(row.begin(), row.end(), 0);
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    last_but_one = last;
-    last = row;
+    last_but_one.swap(last);
+    last.swap(row);
     row[0] = static_cast<int>(i);
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const int replacement = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
