@@ -75,6 +75,7 @@ const Spelling* nearest_spelling(std::span<const std::string> line, std::size_t 
   const Spelling* best = nullptr;
   int least = 0;
   for (const Spelling& s : spellings()) {
+    if (words > 0 && !s.text.starts_with(line[0])) continue;
     if (s.words <= words || (s.words == 1 && first_word_known) || !matches(line, s, resembles)) continue;
     const int distance = edit_distance(first_words(line, s.words), s.text);
     if (!best || distance < least) best = &s, least = distance;
