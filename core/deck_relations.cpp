@@ -11,8 +11,7 @@ namespace treejet {
 
 namespace {
 
-constexpr double round_off =
-    1e-9;  ///< relative: decimals such as 0.1 / 0.02 are off by 1e-16, typed ones by more
+constexpr double round_off = 1e-9;  ///< relative: a third of 0.02 typed with ten digits is a third
 constexpr double most_elements = 1e8;
 
 class Relations {
