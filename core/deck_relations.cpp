@@ -11,19 +11,18 @@ namespace treejet {
 
 namespace {
 
-constexpr double divides = 1e-9;  ///< relative; a decimal such as 0.1 / 0.02 is off by 1e-16
+constexpr double round_off = 1e-9;  ///< relative: a third of 0.02 typed with ten digits is a third
 constexpr double most_elements = 1e8;
 
 class Relations {
  public:
-  Relations(const std::string& deck_name, const std::vector<Given>& given, const Parameters& p,
-            Findings& findings)
-      : deck_name_(deck_name), given_(given), p_(p), findings_(findings) {}
+  Relations(const Place& deck, const std::vector<Given>& given, const Parameters& p, Findings& findings)
+      : deck_(deck), given_(given), p_(p), findings_(findings) {}
 
   void check() {
     time();
     initial_jet();
-    nozzle_and_collector();
+    perturbation();
     fluid();
     output();
   }
@@ -34,10 +33,10 @@ class Relations {
                           p_.integrator == Scheme::verner6;
     const double timestep = p_.timestep.value_or(0);
     error(
-        is_given("timestep") && adaptive, {"integrator", "timestep"},
+        is_given("timestep") && !is_given("tolerance") && adaptive, {"integrator", "timestep"},
         "timestep needs integrator 1 (euler), 2 (heun) or 3 (rk4); auto, dopri5 and verner6 choose the step "
         "themselves and go with tolerance");
-    error(is_given("tolerance") && !adaptive, {"integrator", "tolerance"},
+    error(is_given("tolerance") && !is_given("timestep") && !adaptive, {"integrator", "tolerance"},
           "tolerance needs integrator auto, dopri5 or verner6; euler, heun and rk4 go with timestep");
     error(timestep >= p_.final_time, {"timestep", "final time"},
           fmt::format("expected less than final time ({} s)", p_.final_time));
@@ -50,34 +49,41 @@ class Relations {
     if (length < radius)
       return error(true, {"initial length", "nozzle cross"},
                    fmt::format("expected at least nozzle cross ({} cm)", radius));
-    error(length >= p_.collector_distance, {"initial length", "collector distance"},
-          fmt::format("expected less than collector distance ({} cm)", p_.collector_distance));
-    if (p_.resolution) resolution_divides(length, *p_.resolution);
-    error(l_step() < radius, {p_.points ? "points" : "resolution", "initial length", "nozzle cross"},
-          fmt::format("expected elements (here {:.6g} cm) at least as long as nozzle cross ({} cm)", l_step(),
+    if (length >= p_.collector_distance)
+      return error(true, {"initial length", "collector distance"},
+                   fmt::format("expected less than collector distance ({} cm)", p_.collector_distance));
+    if (p_.resolution && !divides(*p_.resolution)) return;
+    const bool as_points = is_given("points"), as_resolution = is_given("resolution");
+    if (as_points == as_resolution) return;
+    const std::string_view division = as_points ? "points" : "resolution";
+    const double l_step = as_points ? length / p_.points.value_or(1) : p_.resolution.value_or(length);
+    error(l_step < radius * (1 - round_off), {division, "initial length", "nozzle cross"},
+          fmt::format("expected elements (here {:.6g} cm) at least as long as nozzle cross ({} cm)", l_step,
                       radius));
-  }
-
-  void resolution_divides(double length, double resolution) {
-    const double elements = length / resolution;
-    if (elements > most_elements)
-      return error(true, {"resolution", "initial length"},
-                   fmt::format("expected at most {:.0e} elements", most_elements));
-    if (std::abs(elements - std::round(elements)) <= divides * elements) return;
-    const double fewer = std::floor(elements);
-    std::string nearest = fmt::format("{:.10g}", length / (fewer + 1));
-    if (fewer > 0) nearest = fmt::format("{:.10g} or ", length / fewer) + nearest;
-    error(true, {"resolution", "initial length"},
-          fmt::format("expected a divisor of initial length ({} cm); did you mean {}?", length, nearest));
-  }
-
-  void nozzle_and_collector() {
-    error(p_.inserting && p_.collector_distance <= 2 * l_step(),
-          {"inserting", "collector distance", "initial length"},
+    error(p_.inserting && p_.collector_distance <= 2 * l_step,
+          {"inserting", "collector distance", "initial length", division},
           fmt::format(
               "expected a collector distance above two elements ({:.6g} cm): a bead is released when its "
               "predecessor is that far away",
-              2 * l_step()));
+              2 * l_step));
+  }
+
+  bool divides(double resolution) {
+    const double elements = p_.initial_length / resolution, fewer = std::floor(elements);
+    if (elements > most_elements) {
+      error(true, {"resolution", "initial length"},
+            fmt::format("expected at most {:.0e} elements", most_elements));
+      return false;
+    }
+    if (std::abs(elements - std::round(elements)) <= round_off * elements) return true;
+    const std::string longer = fewer > 0 ? fmt::format("{:.10g} or ", p_.initial_length / fewer) : "";
+    error(true, {"resolution", "initial length"},
+          fmt::format("expected a divisor of initial length ({} cm); did you mean {}{:.10g}?",
+                      p_.initial_length, longer, p_.initial_length / (fewer + 1)));
+    return false;
+  }
+
+  void perturbation() {
     error(p_.perturb && p_.system == 1, {"perturb", "system"},
           "expected no in system 1: a straight jet does not circle");
     error(p_.perturb && !is_given("perturb freq"), {"perturb"}, "expected perturb freq to be given, too");
@@ -103,39 +109,33 @@ class Relations {
     note(is_given("seed"), "seed", "no effect: nothing here is random");
   }
 
-  double l_step() const { return p_.points ? p_.initial_length / *p_.points : p_.resolution.value_or(0); }
-
-  const Given* find(std::string_view words) const {
-    const auto found = std::find_if(given_.begin(), given_.end(),
-                                    [d = &directive(words)](const Given& g) { return g.directive == d; });
-    return found == given_.end() ? nullptr : &*found;
-  }
+  const Given* find(std::string_view words) const { return treejet::find(given_, directive(words)); }
 
   bool is_given(std::string_view words) const { return find(words) != nullptr; }
 
   bool sound(std::string_view words) const {
     const Given* g = find(words);
-    return g ? g->valid : !directive(words).mandatory;
+    return g ? !g->faulty : !directive(words).mandatory;
   }
 
-  std::string at(std::string_view words) const {
+  Finding about(std::string_view words, const std::string& message) const {
     const Given* g = find(words);
-    return g ? fmt::format("{}: {} {}: ", g->where, words, fmt::join(g->arguments, " "))
-             : fmt::format("{}: {}: ", deck_name_, words);
+    if (!g) return {deck_, fmt::format("{}: {}", words, message)};
+    return {g->place, fmt::format("{} {}: {}", words, fmt::join(g->arguments, " "), message)};
   }
 
   /// Blames the first of the directives concerned.
   void error(bool violated, std::initializer_list<std::string_view> directives, const std::string& message) {
     if (violated &&
         std::all_of(directives.begin(), directives.end(), [&](auto words) { return sound(words); }))
-      findings_.errors.push_back(at(*directives.begin()) + message);
+      findings_.errors.push_back(about(*directives.begin(), message));
   }
 
   void note(bool holds, std::string_view words, const std::string& message) {
-    if (holds && sound(words)) findings_.notes.push_back(at(words) + message);
+    if (holds && sound(words)) findings_.notes.push_back(about(words, message));
   }
 
-  const std::string& deck_name_;
+  const Place& deck_;
   const std::vector<Given>& given_;
   const Parameters& p_;
   Findings& findings_;
@@ -143,9 +143,9 @@ class Relations {
 
 }  // namespace
 
-void check_relations(const std::string& deck_name, const std::vector<Given>& given,
-                     const Parameters& parameters, Findings& findings) {
-  Relations(deck_name, given, parameters, findings).check();
+void check_relations(const Place& deck, const std::vector<Given>& given, const Parameters& parameters,
+                     Findings& findings) {
+  Relations(deck, given, parameters, findings).check();
 }
 
 }  // namespace treejet

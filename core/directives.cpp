@@ -58,7 +58,7 @@ const Directive table[] = {
     {.words = "surface tension", .member = &P::surface_tension, .unit = "g/s^2", .check = not_negative,
      .meaning = "surface tension; no effect in system 1", .example = "21.13"},
     {.words = "yield stress", .member = &P::yield_stress, .unit = "g/(cm s^2)", .check = not_negative,
-     .meaning = "yield stress of a Herschel-Bulkley fluid"},
+     .meaning = "yield stress, added to the viscous stress; acts without hbfluid yes, too"},
     {.words = "hbfluid", .member = &P::hbfluid,
      .meaning = "Herschel-Bulkley fluid: needs consistency and index"},
     {.words = "hbfluid consistency", .member = &P::hb_consistency, .check = positive,

@@ -1,6 +1,7 @@
 #include "core/vocabulary.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "core/suggestion.hpp"
 
@@ -33,41 +34,54 @@ const std::vector<Spelling>& spellings() {
 
 std::string first_words(std::span<const std::string> line, std::size_t count) {
   std::string joined;
-  for (const std::string& word : line.first(std::min(count, line.size())))
-    joined += (joined.empty() ? "" : " ") + word;
+  for (const std::string& word : line.first(count)) joined += (joined.empty() ? "" : " ") + word;
   return joined;
 }
 
-bool each_word_resembles(std::span<const std::string> line, std::string_view spelling) {
-  for (const std::string& word : line) {
-    const std::string_view known = spelling.substr(0, spelling.find(' '));
-    if (!resembles(word, known)) return false;
-    if (known.size() == spelling.size()) break;
-    spelling.remove_prefix(known.size() + 1);
+/// Does alike(word, known) hold for each word of the spelling and the line's word in its place?
+template <class Alike>
+bool matches(std::span<const std::string> line, const Spelling& spelling, Alike alike) {
+  if (spelling.words > line.size()) return false;
+  std::string_view rest = spelling.text;
+  for (const std::string& word : line.first(spelling.words)) {
+    const std::string_view known = rest.substr(0, rest.find(' '));
+    if (!alike(word, known)) return false;
+    rest.remove_prefix(std::min(rest.size(), known.size() + 1));
   }
   return true;
+}
+
+template <class Wanted>
+const Spelling* longest(std::span<const std::string> line, Wanted wanted) {
+  const Spelling* best = nullptr;
+  for (const Spelling& s : spellings())
+    if (wanted(s) && (!best || s.words > best->words) && matches(line, s, std::equal_to<std::string_view>{}))
+      best = &s;
+  return best;
 }
 
 }  // namespace
 
 const Spelling* spelling_at_start(std::span<const std::string> line) {
-  const Spelling* longest = nullptr;
-  for (const Spelling& s : spellings())
-    if ((!longest || s.words > longest->words) && first_words(line, s.words) == s.text) longest = &s;
-  return longest;
+  return longest(line, [](const Spelling&) { return true; });
+}
+
+const Spelling* directive_at_start(std::span<const std::string> line) {
+  return longest(line, [](const Spelling& s) { return s.directive != nullptr; });
 }
 
 const Spelling* nearest_spelling(std::span<const std::string> line, std::size_t words) {
+  const bool first_word_known = !directives_beginning_with(line[0]).empty();
   const Spelling* best = nullptr;
   int least = 0;
   for (const Spelling& s : spellings()) {
-    if (s.words <= words || s.words > line.size()) continue;
-    if (!each_word_resembles(line, s.text)) continue;
+    if (words > 0 && !s.text.starts_with(line[0])) continue;
+    if (s.words <= words || (s.words == 1 && first_word_known) || !matches(line, s, resembles)) continue;
     const int distance = edit_distance(first_words(line, s.words), s.text);
     if (!best || distance < least) best = &s, least = distance;
   }
   for (const Spelling& s : spellings())  // blanks forgotten: finaltime, print_time
-    if (!best && words == 0 && s.words > 1 && resembles(line[0], s.text)) best = &s;
+    if (!best && words == 0 && !first_word_known && s.words > 1 && resembles(line[0], s.text)) best = &s;
   return best;
 }
 

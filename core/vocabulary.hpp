@@ -21,6 +21,9 @@ struct Spelling {
 /// The longest spelling the line begins with, null if there is none.
 const Spelling* spelling_at_start(std::span<const std::string> line);
 
+/// The longest spelling of a directive of ours the line begins with, null if there is none.
+const Spelling* directive_at_start(std::span<const std::string> line);
+
 /// The spelling of more than `words` words that the line's beginning resembles most, null if there is none.
 const Spelling* nearest_spelling(std::span<const std::string> line, std::size_t words = 0);
 
