@@ -34,26 +34,27 @@ class Segment {
 
   /// Beads first, first + 1, ... of the state at t, as many as `y` has rows.
   void at(double t, Eigen::Index first, Table<D>& y) const {
-    const double h = end_.t - begin_.t, s = (t - begin_.t) / h;
+    const double h = end_.t - begin_.t, s = (t - begin_.t) / h, s2 = s * s, s3 = s2 * s;
     const Eigen::Index n = y.rows();
-    const auto x0 = begin_.y.middleRows(first, n), x1 = end_.y.middleRows(first, n);
-    const auto d0 = begin_.slope.middleRows(first, n), d1 = end_.slope.middleRows(first, n);
-    constexpr int v = velocity_column<D>;
-    for (int k = 0; k < D; ++k) {
-      // remainders of position, velocity and acceleration at the end, beyond the parabola from the beginning
-      const auto A = x1.col(k) - x0.col(k) - h * x0.col(v + k) - h * h / 2 * d0.col(v + k);
-      const auto B = h * (x1.col(v + k) - x0.col(v + k)) - h * h * d0.col(v + k);
-      const auto C = h * h * (d1.col(v + k) - d0.col(v + k));
-      const auto c3 = 10 * A - 4 * B + C / 2, c4 = -15 * A + 7 * B - C, c5 = 6 * A - 3 * B + C / 2;
-      y.col(k) = x0.col(k) + s * h * x0.col(v + k) + s * s * h * h / 2 * d0.col(v + k) +
-                 s * s * s * (c3 + s * (c4 + s * c5));
-      y.col(v + k) = x0.col(v + k) + s * h * d0.col(v + k) + s * s * (3 * c3 + s * (4 * c4 + s * 5 * c5)) / h;
-    }
-    const auto sigma0 = x0.col(stress_column<D>), sigma1 = x1.col(stress_column<D>);
-    const auto rate0 = h * d0.col(stress_column<D>), rate1 = h * d1.col(stress_column<D>);
-    const auto rise = sigma1 - sigma0;
-    y.col(stress_column<D>) =
-        sigma0 + s * (rate0 + s * (3 * rise - 2 * rate0 - rate1 + s * (rate0 + rate1 - 2 * rise)));
+    const auto x0 = begin_.y.middleRows(first, n).template leftCols<D>();
+    const auto x1 = end_.y.middleRows(first, n).template leftCols<D>();
+    const auto v0 = begin_.y.middleRows(first, n).template middleCols<D>(D);
+    const auto v1 = end_.y.middleRows(first, n).template middleCols<D>(D);
+    const auto a0 = begin_.slope.middleRows(first, n).template middleCols<D>(D);
+    const auto a1 = end_.slope.middleRows(first, n).template middleCols<D>(D);
+    y.template leftCols<D>() = x0 + s3 * (10 - 15 * s + 6 * s2) * (x1 - x0) +
+                               h * (s - s3 * (6 - 8 * s + 3 * s2)) * v0 - h * s3 * (4 - 7 * s + 3 * s2) * v1 +
+                               h * h / 2 * (s2 - s3 * (3 - 3 * s + s2)) * a0 +
+                               h * h / 2 * s3 * (1 - 2 * s + s2) * a1;
+    y.template middleCols<D>(D) = 30 * s2 * (1 - 2 * s + s2) / h * (x1 - x0) +
+                                  (1 - s2 * (18 - 32 * s + 15 * s2)) * v0 - s2 * (12 - 28 * s + 15 * s2) * v1 +
+                                  h * (s - s2 * (4.5 - 6 * s + 2.5 * s2)) * a0 +
+                                  h * s2 * (1.5 - 4 * s + 2.5 * s2) * a1;
+    constexpr int sigma = stress_column<D>;
+    y.col(sigma) = (1 - s2 * (3 - 2 * s)) * begin_.y.col(sigma).segment(first, n) +
+                   s2 * (3 - 2 * s) * end_.y.col(sigma).segment(first, n) +
+                   h * s * (1 - 2 * s + s2) * begin_.slope.col(sigma).segment(first, n) -
+                   h * s2 * (1 - s) * end_.slope.col(sigma).segment(first, n);
   }
 
   /// Third derivative of the position of bead i at the end: what the next step may expect of its acceleration.
