@@ -1,10 +1,11 @@
 #pragma once
-/// The chain at one instant, as the force terms see it: the beads of a stage with the nozzle and the held bead in
-/// place, and the geometry of the elements.
+/// The chain at one instant, as the force terms see it: the beads of a stage with the nozzle and the held
+/// bead in place, and the geometry of the elements.
 ///
-/// Points are the n beads, then the held bead if there is one, then the nozzle. Element i (i < n) joins bead i to its
-/// upper neighbour; that of bead n-1 is the nozzle even while a bead is held:
-///     l_i = |r_i - r_up|,   t_i = (r_i - r_up) / l_i   (away from the nozzle),   strain rate = (v_i - v_up).t_i / l_i.
+/// Points are the n beads, then the held bead if there is one, then the nozzle. Element i (i < n) joins bead
+/// i to its upper neighbour; that of bead n-1 is the nozzle even while a bead is held:
+///     l_i = |r_i - r_up|,   t_i = (r_i - r_up) / l_i   (away from the nozzle),   strain rate = (v_i -
+///     v_up).t_i / l_i.
 /// Volume is conserved, pi a_i^2 l_i = pi a_0^2 l_step. Scaled. Source: paper, Sec. "Equations of motion".
 
 #include <utility>
@@ -35,7 +36,8 @@ void set_boundary(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, d
   chain.point.resize(points, Eigen::NoChange);
   chain.point_charge.resize(points);
   chain.tangent.resize(n, Eigen::NoChange);
-  for (auto* a : {&chain.inverse_length, &chain.strain_rate, &chain.stress, &chain.inverse_mass}) a->resize(n);
+  for (auto* a : {&chain.inverse_length, &chain.strain_rate, &chain.stress, &chain.inverse_mass})
+    a->resize(n);
   if (jet.held) {
     const Vec<D> youngest = position<D>(y, n - 1);
     chain.point.row(n) = nozzle.held_position(youngest, t).transpose();

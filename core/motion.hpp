@@ -1,8 +1,8 @@
 #pragma once
 /// The right-hand side dy/dt = f(t, y) of a jet, as a stepper sees it.
 ///
-/// `jet` tells what is constant within a step: mass and charge of the beads, and whether one is held; its own t and y
-/// are not looked at. `slope` is resized to the shape of y.
+/// `jet` tells what is constant within a step: mass and charge of the beads, and whether one is held; its own
+/// t and y are not looked at. `slope` is resized to the shape of y.
 
 #include "core/jet.hpp"
 

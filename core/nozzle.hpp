@@ -1,15 +1,19 @@
 #pragma once
-/// The nozzle: a point charge at x = 0 that may circle in the y-z plane, and the rule by which it lets beads go.
+/// The nozzle: a point charge at x = 0 that may circle in the y-z plane, and the rule by which it lets beads
+/// go.
 ///
-/// Insertion takes two events, both functions of d, the distance of the youngest bead (row n-1) from the nozzle:
-///   place    at d = 1.5 l_step: a bead is held on the chord nozzle -> bead n-1 at distance l_step; it exists as a
+/// Insertion takes two events, both functions of d, the distance of the youngest bead (row n-1) from the
+/// nozzle:
+///   place    at d = 1.5 l_step: a bead is held on the chord nozzle -> bead n-1 at distance l_step; it exists
+///   as a
 ///            charge only, faded in by s(d) = (1 - cos(pi (d - 1.5 l_step) / (0.5 l_step))) / 2;
-///   release  at d = 2 l_step, where s = 1: the held bead becomes row n with stress 0 and half the velocity of its
-///            predecessor above the nozzle velocity (the paper's dragging velocity), so that the strain rate of the
-///            element below is continuous.
-/// The circle is y = A cos(K_s t), z = A sin(K_s t), evaluated, not integrated; its velocity is the derivative.
-/// All quantities scaled. Source: paper, Sec. "Perturbations at the nozzle" and "Jet insertion"; the first event is
-/// JETSPIN's, the paper tells of the second only.
+///   release  at d = 2 l_step, where s = 1: the held bead becomes row n with stress 0 and half the velocity
+///   of its
+///            predecessor above the nozzle velocity (the paper's dragging velocity), so that the strain rate
+///            of the element below is continuous.
+/// The circle is y = A cos(K_s t), z = A sin(K_s t), evaluated, not integrated; its velocity is the
+/// derivative. All quantities scaled. Source: paper, Sec. "Perturbations at the nozzle" and "Jet insertion";
+/// the first event is JETSPIN's, the paper tells of the second only.
 
 #include <cmath>
 #include <numbers>

@@ -60,7 +60,8 @@ struct Parameters {
   double xyz_rescale = 1;
 };
 
-/// The interval of the tables when the deck does not say: JETSPIN's 1000 steps, or a hundredth of the run. In s.
+/// The interval of the tables when the deck does not say: JETSPIN's 1000 steps, or a hundredth of the run. In
+/// s.
 inline double print_interval(const Parameters& p) {
   if (p.print_time) return *p.print_time;
   return p.timestep ? 1000 * *p.timestep : p.final_time / 100;

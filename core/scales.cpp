@@ -6,7 +6,9 @@
 namespace treejet {
 
 namespace {
-double section(const Parameters& p) { return std::numbers::pi * p.nozzle_cross * p.nozzle_cross; }
+double section(const Parameters& p) {
+  return std::numbers::pi * p.nozzle_cross * p.nozzle_cross;
+}
 
 double charge_density(const Parameters& p) {
   constexpr double litre = 1000;  // cm^3

@@ -1,9 +1,9 @@
 #pragma once
 /// Characteristic scales and dimensionless groups: the only place where units change.
 ///
-/// Inside the program every quantity is divided by its scale, so that an initial bead has mass 1 and charge 1.
-/// Source: paper, Sec. "Dimensionless quantities" and its table. The groups are those of a bead with m = q = 1;
-/// the terms divide by the scaled mass and multiply by the scaled charge of each bead.
+/// Inside the program every quantity is divided by its scale, so that an initial bead has mass 1 and
+/// charge 1. Source: paper, Sec. "Dimensionless quantities" and its table. The groups are those of a bead
+/// with m = q = 1; the terms divide by the scaled mass and multiply by the scaled charge of each bead.
 /// Without charge the paper's L_0 vanishes; the length scale is then l_step and Q = V = 0.
 
 #include "core/parameters.hpp"

@@ -1,11 +1,11 @@
 #pragma once
 /// The solution between the two ends of a step: dense output for every scheme.
 ///
-/// Position is the quintic that meets position, velocity and acceleration at both ends, velocity is its derivative,
-/// stress the cubic that meets stress and its rate. With theta = (t - begin) / h and exact end values the errors are
-/// O(h^6 theta^3 (1 - theta)^3) in position, O(h^5 theta^2 (1 - theta)^2) in velocity and O(h^4 theta^2 (1 - theta)^2)
-/// in stress, also a little outside [0, 1]. The solution holds for begin <= t <= until.
-/// Source: Hermite interpolation; e.g. Hairer, Norsett, Wanner, "Solving ODEs I", II.6.
+/// Position is the quintic that meets position, velocity and acceleration at both ends, velocity is its
+/// derivative, stress the cubic that meets stress and its rate. With theta = (t - begin) / h and exact end
+/// values the errors are O(h^6 theta^3 (1 - theta)^3) in position, O(h^5 theta^2 (1 - theta)^2) in velocity
+/// and O(h^4 theta^2 (1 - theta)^2) in stress, also a little outside [0, 1]. The solution holds for begin <=
+/// t <= until. Source: Hermite interpolation; e.g. Hairer, Norsett, Wanner, "Solving ODEs I", II.6.
 
 #include "core/jet.hpp"
 
@@ -46,10 +46,10 @@ class Segment {
                                h * (s - s3 * (6 - 8 * s + 3 * s2)) * v0 - h * s3 * (4 - 7 * s + 3 * s2) * v1 +
                                h * h / 2 * (s2 - s3 * (3 - 3 * s + s2)) * a0 +
                                h * h / 2 * s3 * (1 - 2 * s + s2) * a1;
-    y.template middleCols<D>(D) = 30 * s2 * (1 - 2 * s + s2) / h * (x1 - x0) +
-                                  (1 - s2 * (18 - 32 * s + 15 * s2)) * v0 - s2 * (12 - 28 * s + 15 * s2) * v1 +
-                                  h * (s - s2 * (4.5 - 6 * s + 2.5 * s2)) * a0 +
-                                  h * s2 * (1.5 - 4 * s + 2.5 * s2) * a1;
+    y.template middleCols<D>(D) =
+        30 * s2 * (1 - 2 * s + s2) / h * (x1 - x0) + (1 - s2 * (18 - 32 * s + 15 * s2)) * v0 -
+        s2 * (12 - 28 * s + 15 * s2) * v1 + h * (s - s2 * (4.5 - 6 * s + 2.5 * s2)) * a0 +
+        h * s2 * (1.5 - 4 * s + 2.5 * s2) * a1;
     constexpr int sigma = stress_column<D>;
     y.col(sigma) = (1 - s2 * (3 - 2 * s)) * begin_.y.col(sigma).segment(first, n) +
                    s2 * (3 - 2 * s) * end_.y.col(sigma).segment(first, n) +
@@ -57,7 +57,8 @@ class Segment {
                    h * s2 * (1 - s) * end_.slope.col(sigma).segment(first, n);
   }
 
-  /// Third derivative of the position of bead i at the end: what the next step may expect of its acceleration.
+  /// Third derivative of the position of bead i at the end: what the next step may expect of its
+  /// acceleration.
   Vec<D> jerk_at_end(Eigen::Index i) const {
     const double h = end_.t - begin_.t;
     const Vec<D> v0 = h * velocity<D>(begin_.y, i), a0 = h * h * velocity<D>(begin_.slope, i);

@@ -6,8 +6,8 @@
 namespace treejet {
 
 struct Version {
-  std::string_view number;    ///< e.g. "0.1.0"
-  std::string_view commit;    ///< git hash, "-dirty" behind it if files differed; "unknown" outside a checkout
+  std::string_view number;  ///< e.g. "0.1.0"
+  std::string_view commit;  ///< git hash, "-dirty" behind it if files differed; "unknown" outside a checkout
   std::string_view compiler;  ///< name and number
   std::string_view build;     ///< Release, Debug, ...
 };

@@ -15,11 +15,13 @@ class Watcher {
   /// The jet before the first step.
   virtual void start(const Jet<D>&) {}
 
-  /// The solution over begin <= t < until. An output due exactly at `until` belongs to the next segment: it shows
-  /// the jet after the events of that instant. `jet` gives what is constant in the segment: mass, charge, held.
+  /// The solution over begin <= t < until. An output due exactly at `until` belongs to the next segment: it
+  /// shows the jet after the events of that instant. `jet` gives what is constant in the segment: mass,
+  /// charge, held.
   virtual void segment(const Jet<D>&, const Segment<D>&) {}
 
-  /// An event at jet.t. For a placement and a release `jet` is the jet after it, for a removal the jet before it.
+  /// An event at jet.t. For a placement and a release `jet` is the jet after it, for a removal the jet before
+  /// it.
   virtual void event(EventKind, const Jet<D>&) {}
 
   /// The jet after the last step.

@@ -2,9 +2,9 @@
 /// Constitutive equations of an element, scaled (stress by G, time by mu / G):
 ///     Maxwell             d sigma/dt = rate - sigma
 ///     Herschel-Bulkley    d sigma/dt = sgn(rate) ( sigma_Y + K |rate|^nu ) - sigma
-/// with rate = (1/l) dl/dt. JETSPIN leaves the sign out: for an element that shortens it gives NaN (nu not an integer)
-/// or stress that grows; and its yield stress acts on elements at rest. For elements that stretch both agree.
-/// Source: paper, constitutive equation; the Herschel-Bulkley options are JETSPIN's.
+/// with rate = (1/l) dl/dt. JETSPIN leaves the sign out: for an element that shortens it gives NaN (nu not an
+/// integer) or stress that grows; and its yield stress acts on elements at rest. For elements that stretch
+/// both agree. Source: paper, constitutive equation; the Herschel-Bulkley options are JETSPIN's.
 
 #include <cmath>
 

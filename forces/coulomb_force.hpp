@@ -3,8 +3,8 @@
 ///
 ///     a_i = (Q q_i / m_i) E_i ,      E_i = sum_{j != i} q_j (r_i - r_j) / |r_i - r_j|^3 .
 ///
-/// `reach` is the deck's cutoff as a number of points along the chain: pairs with |i - j| <= reach interact. The sum
-/// itself is forces/coulomb.hpp. Source: paper, Sec. "Equations of motion".
+/// `reach` is the deck's cutoff as a number of points along the chain: pairs with |i - j| <= reach interact.
+/// The sum itself is forces/coulomb.hpp. Source: paper, Sec. "Equations of motion".
 
 #include "forces/coulomb.hpp"
 #include "forces/term.hpp"
@@ -33,8 +33,8 @@ class CoulombForce final : public ForceTerm<D> {
     }
     const int i = rows.first, n = rows.size();
     for (int k = 0; k < D; ++k) {
-      a.col(k).segment(i, n) += Q_ * c.point_charge.segment(i, n) * c.inverse_mass.segment(i, n) *
-                                field_.col(k).segment(i, n);
+      a.col(k).segment(i, n) +=
+          Q_ * c.point_charge.segment(i, n) * c.inverse_mass.segment(i, n) * field_.col(k).segment(i, n);
     }
   }
 

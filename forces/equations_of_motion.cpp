@@ -1,5 +1,7 @@
 #include "forces/equations_of_motion.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace treejet {
@@ -37,5 +39,11 @@ void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const Table<D
 
 template class EquationsOfMotion<1>;
 template class EquationsOfMotion<3>;
+
+std::string threads_description(Threads threads) {
+  if (threads.count == 1) return "1 thread";
+  return fmt::format("{} threads ({} below {} beads)", threads.count, threads.count - 1,
+                     threads.count * beads_worth_a_thread);
+}
 
 }  // namespace treejet

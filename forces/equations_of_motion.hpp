@@ -3,11 +3,12 @@
 ///
 ///     dr_i/dt = v_i ,    m_i dv_i/dt = sum of the force terms ,    d sigma_i/dt = constitutive equation .
 ///
-/// A term that is left out is not here: no test, no array. Every row is computed by one thread, in the order of the
-/// terms, so the bits of the result do not depend on the number of threads.
-/// Source: paper, Sec. "Equations of motion", scaled form.
+/// A term that is left out is not here: no test, no array. Every row is computed by one thread, in the order
+/// of the terms, so the bits of the result do not depend on the number of threads. Source: paper, Sec.
+/// "Equations of motion", scaled form.
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/motion.hpp"
@@ -22,7 +23,10 @@ class EquationsOfMotion final : public Motion<D> {
  public:
   EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<StressLaw<D>> stress_law,
                     std::vector<std::unique_ptr<ForceTerm<D>>> terms, Threads threads)
-      : nozzle_(std::move(nozzle)), stress_law_(std::move(stress_law)), terms_(std::move(terms)), threads_(threads) {}
+      : nozzle_(std::move(nozzle)),
+        stress_law_(std::move(stress_law)),
+        terms_(std::move(terms)),
+        threads_(threads) {}
 
   void operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) override;
 
@@ -39,8 +43,11 @@ class EquationsOfMotion final : public Motion<D> {
   Chain<D> chain_;
 };
 
-/// Fewer beads than this a thread do not repay waking the thread: with 2 threads a Coulomb sum over 128 beads takes
-/// about as long as with 1, and each doubling of the beads is four times the work.
-constexpr int beads_worth_a_thread = 64;
+/// Fewer beads than this for each thread do not repay waking it: the Coulomb sum over 2 * 256 beads takes
+/// about as long as a hundred wake-ups, so that a late one does no harm either.
+constexpr int beads_worth_a_thread = 256;
+
+/// "2 threads (1 below 128 beads)".
+std::string threads_description(Threads threads);
 
 }  // namespace treejet

@@ -56,17 +56,23 @@ class Composer {
   }
 
   std::vector<std::unique_ptr<ForceTerm<D>>> terms() {
-    add(true, "", [&] { return std::make_unique<Viscoelastic<D>>(g_.L_step, g_.F_ve); }, "viscoelastic force");
-    add(g_.V != 0, p_.density_charge == 0 ? "density charge is 0" : "external potential is 0",
+    add(
+        true, "", [&] { return std::make_unique<Viscoelastic<D>>(g_.L_step, g_.F_ve); },
+        "viscoelastic force");
+    add(
+        g_.V != 0, p_.density_charge == 0 ? "density charge is 0" : "external potential is 0",
         [&] { return std::make_unique<ElectricField<D>>(g_.V); }, "external field");
-    add(g_.F_g != 0, "no gravity yes", [&] { return std::make_unique<Gravity<D>>(g_.F_g); }, "gravity");
+    add(
+        g_.F_g != 0, "no gravity yes", [&] { return std::make_unique<Gravity<D>>(g_.F_g); }, "gravity");
     if constexpr (D == 3) {
-      add(g_.A != 0, "surface tension is 0", [&] { return std::make_unique<SurfaceTension>(g_.L_step, g_.A); },
-          "surface tension");
+      add(
+          g_.A != 0, "surface tension is 0",
+          [&] { return std::make_unique<SurfaceTension>(g_.L_step, g_.A); }, "surface tension");
     } else {
       left_out.push_back({"surface tension", "a straight jet (system 1) has no curvature"});
     }
-    add(g_.Q != 0, "density charge is 0", [&] { return std::make_unique<CoulombForce<D>>(g_.Q, reach(p_)); },
+    add(
+        g_.Q != 0, "density charge is 0", [&] { return std::make_unique<CoulombForce<D>>(g_.Q, reach(p_)); },
         "Coulomb sum");
     return std::move(terms_);
   }

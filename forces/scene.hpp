@@ -1,6 +1,6 @@
 #pragma once
-/// A scene: what a deck's parameters compose, ready to move. Only the terms that the deck names are in it; for each
-/// one left out, `left_out` tells why.
+/// A scene: what a deck's parameters compose, ready to move. Only the terms that the deck names are in it;
+/// for each one left out, `left_out` tells why.
 
 #include <string>
 #include <vector>

@@ -4,19 +4,21 @@
 ///     f_i = k pi ((a_i + a_{i-1}) / 2)^2 alpha c_i ,      k = 1 / R,
 ///     a_i = (L_step A / m_i) k / 4 (1 / sqrt(l_i) + 1 / sqrt(l_{i-1}))^2 c_i .
 ///
-/// The oldest bead is a free end and has no curvature. While a bead is held it is the upper neighbour of the youngest
-/// one, although l_i reaches to the nozzle (JETSPIN's rule, kept).
-/// Source: paper, Sec. "Equations of motion".
+/// The oldest bead is a free end and has no curvature. While a bead is held it is the upper neighbour of the
+/// youngest one, although l_i reaches to the nozzle (JETSPIN's rule, kept). Source: paper, Sec. "Equations of
+/// motion".
 
 #include "forces/term.hpp"
 
 namespace treejet {
 
-/// Curvature times the unit vector to the centre of the circle through a bead and its neighbours at u and s from it.
+/// Curvature times the unit vector to the centre of the circle through a bead and its neighbours at u and s
+/// from it.
 ///
-/// Inversion maps that circle on the line through U = u / u^2 and S = s / s^2, whose point nearest to the origin, f,
-/// is the image of the far end of the diameter: f = 2 R c / (2 R)^2, hence k c = 2 f. No test for straightness and no
-/// small divisor: for collinear beads the line passes through the origin and f = 0 to round-off.
+/// Inversion maps that circle on the line through U = u / u^2 and S = s / s^2, whose point nearest to the
+/// origin, f, is the image of the far end of the diameter: f = 2 R c / (2 R)^2, hence k c = 2 f. No test for
+/// straightness and no small divisor: for collinear beads the line passes through the origin and f = 0 to
+/// round-off.
 inline Vec<3> curvature(const Vec<3>& u, const Vec<3>& s) {
   const Vec<3> U = u / u.squaredNorm(), along = s / s.squaredNorm() - U;
   return 2 * (U - along * (U.dot(along) / along.squaredNorm()));

@@ -1,9 +1,9 @@
 #pragma once
 /// A force term: what it adds to the acceleration of the beads.
 ///
-/// A term works on a share of rows, so that one indirect call serves a whole loop. `prepare` runs once an evaluation,
-/// before any `add`, and may use all threads; `add` runs concurrently on disjoint rows and writes those rows only.
-/// Scaled: the result is a force over the mass of the bead it acts on.
+/// A term works on a share of rows, so that one indirect call serves a whole loop. `prepare` runs once an
+/// evaluation, before any `add`, and may use all threads; `add` runs concurrently on disjoint rows and writes
+/// those rows only. Scaled: the result is a force over the mass of the bead it acts on.
 
 #include <string_view>
 

@@ -20,7 +20,8 @@ std::string likely_cause(const Table<D>& before, Eigen::Index bead) {
   if (nearest >= 0 && distance < 1e-6 * extent) {
     return fmt::format("beads {} and {} have met (scaled distance {:.3g})", bead, nearest, distance);
   }
-  return "the time step is too large for the forces: use a smaller timestep, or tolerance instead of timestep";
+  return "the time step is too large for the forces: use a smaller timestep, or tolerance instead of "
+         "timestep";
 }
 
 }  // namespace
@@ -30,15 +31,16 @@ std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, st
   if (!std::isfinite(y.sum())) {
     for (Eigen::Index i = 0; i < y.rows(); ++i) {
       if (y.row(i).isFinite().all()) continue;
-      return fmt::format("bead {} (number {} since the start) is no longer finite; likely cause: {}", i, removed + i,
-                         likely_cause<D>(before, i));
+      return fmt::format("bead {} (number {} since the start) is no longer finite; likely cause: {}", i,
+                         removed + i, likely_cause<D>(before, i));
     }
   }
   if constexpr (D == 1) {
     for (Eigen::Index i = 0; i + 1 < y.rows(); ++i) {
       if (y(i, 0) > y(i + 1, 0)) continue;
-      return fmt::format("beads {} and {} of the straight jet have crossed; likely cause: {}", i, i + 1,
-                         "the time step is too large, or the charge density too small to keep the beads apart");
+      return fmt::format(
+          "beads {} and {} of the straight jet have crossed; likely cause: {}", i, i + 1,
+          "the time step is too large, or the charge density too small to keep the beads apart");
     }
     if (y.rows() > 0 && !(y(y.rows() - 1, 0) > 0)) {
       return fmt::format("bead {} has moved back behind the nozzle; likely cause: {}", y.rows() - 1,

@@ -8,8 +8,8 @@
 
 namespace treejet {
 
-/// Empty if every number of y is finite and, in one dimension, the beads are in order; else a sentence that names the
-/// bead and the likely cause. `before` is the last good state, with the same rows.
+/// Empty if every number of y is finite and, in one dimension, the beads are in order; else a sentence that
+/// names the bead and the likely cause. `before` is the last good state, with the same rows.
 template <int D>
 std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, std::int64_t removed);
 

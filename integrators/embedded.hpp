@@ -1,9 +1,10 @@
 #pragma once
-/// Explicit Runge-Kutta pairs: a result of order p with an estimate of the error of its partner of order p - 1.
+/// Explicit Runge-Kutta pairs: a result of order p with an estimate of the error of its partner of order p
+/// - 1.
 ///
-/// Stage i is evaluated at t + c_i h on y + h sum_j a_ij k_j; the result is y + h sum b_i k_i, the error estimate
-/// h sum (b_i - b*_i) k_i. A tableau lists c, a (row by row), b and b*. For a pair whose last stage is evaluated on
-/// the result ("first same as last") that stage carries weight in b* only.
+/// Stage i is evaluated at t + c_i h on y + h sum_j a_ij k_j; the result is y + h sum b_i k_i, the error
+/// estimate h sum (b_i - b*_i) k_i. A tableau lists c, a (row by row), b and b*. For a pair whose last stage
+/// is evaluated on the result ("first same as last") that stage carries weight in b* only.
 
 #include <array>
 
@@ -42,7 +43,8 @@ class EmbeddedRungeKutta final : public Stepper<D> {
   std::array<Table<D>, Tableau::stages> k_;  ///< k_[0] is the slope of `from`
 };
 
-/// Dormand and Prince, "A family of embedded Runge-Kutta formulae", J. Comput. Appl. Math. 6 (1980) 19: order 5(4).
+/// Dormand and Prince, "A family of embedded Runge-Kutta formulae", J. Comput. Appl. Math. 6 (1980) 19: order
+/// 5(4).
 struct DormandPrince5 {
   static constexpr int order = 5, stages = 7;
   static constexpr double c[] = {0, 1. / 5, 3. / 10, 4. / 5, 8. / 9, 1, 1};
@@ -54,11 +56,12 @@ struct DormandPrince5 {
       {9017. / 3168, -355. / 33, 46732. / 5247, 49. / 176, -5103. / 18656},
       {35. / 384, 0, 500. / 1113, 125. / 192, -2187. / 6784, 11. / 84}};
   static constexpr double b[] = {35. / 384, 0, 500. / 1113, 125. / 192, -2187. / 6784, 11. / 84, 0};
-  static constexpr double difference[] = {71. / 57600, 0, -71. / 16695, 71. / 1920, -17253. / 339200, 22. / 525, -1. / 40};
+  static constexpr double difference[] = {71. / 57600,      0,         -71. / 16695, 71. / 1920,
+                                          -17253. / 339200, 22. / 525, -1. / 40};
 };
 
-/// Verner, "Explicit Runge-Kutta methods with estimates of the local truncation error", SIAM J. Numer. Anal. 15 (1978)
-/// 772: order 6(5), eight stages.
+/// Verner, "Explicit Runge-Kutta methods with estimates of the local truncation error", SIAM J. Numer. Anal.
+/// 15 (1978) 772: order 6(5), eight stages.
 struct Verner6 {
   static constexpr int order = 6, stages = 8;
   static constexpr double c[] = {0, 1. / 6, 4. / 15, 2. / 3, 5. / 6, 1, 1. / 15, 1};
@@ -72,8 +75,8 @@ struct Verner6 {
       {3501. / 1720, -300. / 43, 297275. / 52632, -319. / 2322, 24068. / 84065, 0, 3850. / 26703}};
   static constexpr double b[] = {3. / 40, 0, 875. / 2244, 23. / 72, 264. / 1955, 0, 125. / 11592, 43. / 616};
   static constexpr double partner[] = {13. / 160, 0, 2375. / 5984, 5. / 16, 12. / 85, 3. / 44, 0, 0};
-  static constexpr double difference[] = {b[0] - partner[0], 0,           b[2] - partner[2], b[3] - partner[3],
-                                          b[4] - partner[4], -partner[5], b[6],              b[7]};
+  static constexpr double difference[] = {
+      b[0] - partner[0], 0, b[2] - partner[2], b[3] - partner[3], b[4] - partner[4], -partner[5], b[6], b[7]};
 };
 
 }  // namespace treejet

@@ -10,8 +10,8 @@
 namespace treejet {
 
 namespace {
-/// An event this fraction of a step off the end of the step is met by dense output, whose error there carries the
-/// square of this fraction; farther off, an adaptive step is made anew to end on the event.
+/// An event this fraction of a step off the end of the step is met by dense output, whose error there carries
+/// the square of this fraction; farther off, an adaptive step is made anew to end on the event.
 constexpr double dense_fraction = 0.01;
 /// Events closer than this fraction of l_step to being due, when another has just happened, are due.
 constexpr double simultaneous = 1e-12;
@@ -73,7 +73,8 @@ std::optional<typename March<D>::Due> March<D>::first_event(const Segment<D>& se
   return first;
 }
 
-/// Time to the next event, at most `horizon`, as position, velocity, acceleration and jerk at now_ foretell it.
+/// Time to the next event, at most `horizon`, as position, velocity, acceleration and jerk at now_ foretell
+/// it.
 template <int D>
 double March<D>::predicted_event(double horizon) const {
   double soonest = horizon;
@@ -121,8 +122,8 @@ void March<D>::step(double h) {
   ++effort_.steps;
 }
 
-/// Steps from now_ to next_ until the step control is content; returns the time up to which an event may be met on
-/// the extrapolated solution.
+/// Steps from now_ to next_ until the step control is content; returns the time up to which an event may be
+/// met on the extrapolated solution.
 template <int D>
 double March<D>::attempt(double end) {
   const bool aims = parts_.control.steps_to_events() && parts_.events == EventRule::located;
@@ -135,13 +136,16 @@ double March<D>::attempt(double end) {
     } else if (aims) {
       const double ahead = predicted_event(2.2 * h);
       aimed = ahead <= 1.1 * h;
-      if (aimed) h = ahead;
-      else if (ahead < 2 * h) h = ahead / 2;
+      if (aimed)
+        h = ahead;
+      else if (ahead < 2 * h)
+        h = ahead / 2;
       h = std::min(h, end - now_.t);
     }
     if (!(now_.t + h > now_.t)) {
-      throw NumericalError(fmt::format("step below round-off at scaled time {}: {}", now_.t,
-                                       "the tolerance cannot be met; beads have met, or the tolerance is too small"));
+      throw NumericalError(
+          fmt::format("step below round-off at scaled time {}: {}", now_.t,
+                      "the tolerance cannot be met; beads have met, or the tolerance is too small"));
     }
     step(h);
     if (!parts_.control.accepts(now_.t, h, scaled_error())) {
@@ -177,7 +181,8 @@ void March<D>::to(double end) {
   for (auto* w : parts_.watchers) w->finish(parts_.jet);
 }
 
-/// The event that ends this step, if any. An adaptive step with an event well inside is made anew to end there.
+/// The event that ends this step, if any. An adaptive step with an event well inside is made anew to end
+/// there.
 template <int D>
 std::optional<typename March<D>::Due> March<D>::located_event(double reach) {
   const double h = next_.t - now_.t;
@@ -231,9 +236,10 @@ template <int D>
 void March<D>::removal() {
   Jet<D>& jet = parts_.jet;
   if (jet.size() == 1 && parts_.nozzle.inserting()) {
-    throw NumericalError(fmt::format("at scaled time {}: the only bead of the jet has reached the collector before "
-                                     "another could be inserted; likely cause: the time step is too large",
-                                     jet.t));
+    throw NumericalError(
+        fmt::format("at scaled time {}: the only bead of the jet has reached the collector before "
+                    "another could be inserted; likely cause: the time step is too large",
+                    jet.t));
   }
   for (auto* w : parts_.watchers) w->event(EventKind::removal, jet);
   drop_first<D>(jet);

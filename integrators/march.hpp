@@ -2,13 +2,13 @@
 /// Marches a jet through time and its events.
 ///
 /// Insertion (place, release) and removal are zeros of functions of the state, located on the dense output
-/// (core/segment.hpp). Order at one instant: insertion, then removal, then whatever these have made due, until nothing
-/// is. The last bead is never removed while beads are inserted; without insertion the march ends with an empty jet.
-/// With EventRule::step both are looked for at the ends of steps only, at most one of each a step: JETSPIN's way, first
-/// order in the step whatever the scheme.
+/// (core/segment.hpp). Order at one instant: insertion, then removal, then whatever these have made due,
+/// until nothing is. The last bead is never removed while beads are inserted; without insertion the march
+/// ends with an empty jet. With EventRule::step both are looked for at the ends of steps only, at most one of
+/// each a step: JETSPIN's way, first order in the step whatever the scheme.
 ///
-/// Errors: NumericalError names bead, time and likely cause when the state is no longer finite, a step falls below
-/// round-off, or beads of a straight jet have crossed. The watchers have seen everything up to there.
+/// Errors: NumericalError names bead, time and likely cause when the state is no longer finite, a step falls
+/// below round-off, or beads of a straight jet have crossed. The watchers have seen everything up to there.
 
 #include <functional>
 #include <optional>
@@ -73,7 +73,8 @@ class March {
 
   Parts parts_;
   Node<D> now_, next_;
-  std::optional<Vec<D>> youngest_jerk_, oldest_jerk_;  ///< third derivatives at now_, unless an event has just passed
+  std::optional<Vec<D>> youngest_jerk_,
+      oldest_jerk_;  ///< third derivatives at now_, unless an event has just passed
   Table<D> one_;
   Effort effort_;
 };

@@ -5,7 +5,8 @@
 ///                                               1  |  0    0    1
 ///                                              ----+--------------------
 ///                                                  | 1/6  1/3  1/3  1/6
-/// Source: paper, Sec. "Integration schemes". JETSPIN 1.00 uses other abscissae in 3-D, which makes it first order.
+/// Source: paper, Sec. "Integration schemes". JETSPIN 1.00 uses other abscissae in 3-D, which makes it first
+/// order.
 
 #include "integrators/stepper.hpp"
 

@@ -5,10 +5,10 @@
 ///
 /// By tolerance: the local error of a step is
 ///     err = max over beads of ( |e_r| / (w_r L_step), |e_v| / (w_v V), |e_sigma| / w_sigma ) / tolerance
-/// with e the error estimate of the embedded pair, all scaled. A maximum, not a mean: nearly all of the error sits on
-/// the youngest bead, where an average over the chain hides it. A step with err <= 1 is accepted, and the next one is
-/// h * safety * err^-alpha * previous_err^beta (proportional-integral control).
-/// Source of the controller: Hairer, Norsett, Wanner, "Solving ODEs I", II.4; Gustafsson (1991).
+/// with e the error estimate of the embedded pair, all scaled. A maximum, not a mean: nearly all of the error
+/// sits on the youngest bead, where an average over the chain hides it. A step with err <= 1 is accepted, and
+/// the next one is h * safety * err^-alpha * previous_err^beta (proportional-integral control). Source of the
+/// controller: Hairer, Norsett, Wanner, "Solving ODEs I", II.4; Gustafsson (1991).
 
 #include <algorithm>
 #include <cmath>

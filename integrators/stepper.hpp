@@ -1,8 +1,10 @@
 #pragma once
-/// A one-step scheme for dy/dt = f(t, y): whole-table algebra in which no bead, force, thread or rank is visible.
+/// A one-step scheme for dy/dt = f(t, y): whole-table algebra in which no bead, force, thread or rank is
+/// visible.
 ///
-/// `from` holds state and slope at the beginning, so the first stage is never computed twice. `next` is resized.
-/// A scheme with an embedded partner leaves in `error` the difference of the two results, else `error` is empty.
+/// `from` holds state and slope at the beginning, so the first stage is never computed twice. `next` is
+/// resized. A scheme with an embedded partner leaves in `error` the difference of the two results, else
+/// `error` is empty.
 
 #include "core/motion.hpp"
 #include "core/segment.hpp"

@@ -1,9 +1,10 @@
 #pragma once
 /// Threads: the only `omp parallel` of the project.
 ///
-/// Invariant: a block of rows is computed by exactly one thread, and blocks start at multiples of `block` counted
-/// from row 0, whatever the number of threads; a function of rows therefore gives the same bits on any number of
-/// threads. The first exception thrown in a block is rethrown to the caller once all threads are done.
+/// Invariant: a block of rows is computed by exactly one thread, and blocks start at multiples of `block`
+/// counted from row 0, whatever the number of threads; a function of rows therefore gives the same bits on
+/// any number of threads. The first exception thrown in a block is rethrown to the caller once all threads
+/// are done.
 
 #include <functional>
 
