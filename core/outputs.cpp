@@ -17,15 +17,10 @@ std::unique_ptr<Recorder<D>> recorder(const Parameters& p, const Nozzle<D>& nozz
   const Scales s = scales(p);
   return std::make_unique<Recorder<D>>(
       typename Recorder<D>::Setting{nozzle, collector, s, p.nozzle_cross, p.collector_distance,
-                                    row_interval(p) / s.time, p.final_time / s.time});
+                                    print_interval(p) / s.time, p.final_time / s.time});
 }
 
 }  // namespace
-
-double row_interval(const Parameters& p) {
-  if (p.print_time) return *p.print_time;
-  return p.timestep ? 1000 * *p.timestep : p.final_time / 100;
-}
 
 template <int D>
 Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,

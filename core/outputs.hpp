@@ -43,8 +43,4 @@ class Outputs {
   int maxnum_;
 };
 
-/// Seconds between rows: `print time`, else a thousand time steps or, with a tolerance, a hundredth of the
-/// run.
-double row_interval(const Parameters& p);
-
 }  // namespace treejet
