@@ -43,7 +43,7 @@ void run(const Deck& deck, const Arguments& a) {
   const auto control = step_control(p);
   const auto existing = a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
   Outputs<D> outputs(p, scene.nozzle, scene.collector, {a.out, existing, a.quiet});
-  March<D> march({scene.jet, *scene.motion, *scheme, *control, scene.nozzle, scene.collector, p.events,
+  March<D> march({scene.jet, scene.right_hand_side(), *scheme, *control, scene.nozzle, scene.collector, p.events,
                   p.tolerance.value_or(0), outputs.watchers()});
   if (!a.quiet) {
     fmt::print("{}\n{}\n{}", version_text(), deck.name, composition(scene.composed, scene.left_out));

@@ -83,6 +83,17 @@ class Composer {
     note(p_.perturb, "circling nozzle", "perturb yes", "no perturb yes");
   }
 
+  /// Two rates need an error to hold, and a sum over all pairs to take apart.
+  bool two_rates() {
+    const char* why_not = !p_.tolerance                   ? "a fixed timestep has no error to hold"
+                          : p_.multirate == Multirate::no ? "multirate no"
+                          : g_.Q == 0                     ? "no Coulomb sum"
+                          : p_.cutoff.value_or(p_.collector_distance) < p_.collector_distance ? "cutoff"
+                                                                                              : nullptr;
+    note(!why_not, "two rates", "multirate auto", why_not);
+    return !why_not;
+  }
+
   std::vector<Choice> composed, left_out;
 
  private:
@@ -90,7 +101,7 @@ class Composer {
   void add(bool wanted, const char* why_not, Make make, const char* name) {
     if (!wanted) return left_out.push_back({name, why_not});
     terms_.push_back(make());
-    composed.push_back({std::string(terms_.back()->name()), "named by the deck"});
+    composed.push_back({std::string(terms_.back()->name()), why_not ? "named by the deck" : "always"});
   }
 
   void note(bool wanted, const char* name, const char* why, const char* why_not) {
@@ -111,12 +122,12 @@ Scene<D> compose(const Parameters& p, Threads threads) {
   auto terms = composer.terms();
   composer.boundaries();
   const Nozzle<D> nozzle(p);
-  return {initial_jet<D>(p),
-          nozzle,
-          Collector(p),
-          std::make_unique<EquationsOfMotion<D>>(nozzle, std::move(law), std::move(terms), threads),
-          std::move(composer.composed),
-          std::move(composer.left_out)};
+  Scene<D> scene{initial_jet<D>(p), nozzle, Collector(p), nullptr, nullptr, {}, {}};
+  scene.motion = std::make_unique<EquationsOfMotion<D>>(nozzle, std::move(law), std::move(terms), threads);
+  if (composer.two_rates()) scene.two_rates = std::make_unique<TwoRateMotion<D>>(*scene.motion, *p.tolerance);
+  scene.composed = std::move(composer.composed);
+  scene.left_out = std::move(composer.left_out);
+  return scene;
 }
 
 template Scene<1> compose<1>(const Parameters&, Threads);

@@ -9,6 +9,7 @@
 #include "core/nozzle.hpp"
 #include "core/parameters.hpp"
 #include "forces/equations_of_motion.hpp"
+#include "forces/two_rate_motion.hpp"
 
 namespace treejet {
 
@@ -22,7 +23,14 @@ struct Scene {
   Nozzle<D> nozzle;
   Collector collector;
   std::unique_ptr<EquationsOfMotion<D>> motion;
+  std::unique_ptr<TwoRateMotion<D>> two_rates;  ///< null where every term is evaluated at every stage
   std::vector<Choice> composed, left_out;
+
+  /// The right-hand side to step with.
+  Motion<D>& right_hand_side() {
+    if (two_rates) return *two_rates;
+    return *motion;
+  }
 };
 
 template <int D>

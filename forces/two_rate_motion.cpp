@@ -11,7 +11,7 @@ namespace treejet {
 namespace {
 
 constexpr int fast_old = 8, fast_young = 16;  ///< beads at the two ends
-constexpr int near = 16;                      ///< further points whose field on the fast beads is not continued
+constexpr int near = 16;  ///< further points whose field on the fast beads is not continued
 
 /// A fast end of the chain, and the points near to it.
 struct End {
@@ -71,7 +71,7 @@ void drop_first_row(Array& a) {
 template <int D>
 bool TwoRateMotion<D>::continues(Eigen::Index beads) const {
   constexpr int worthwhile = 64;  // below, a full evaluation is as cheap
-  return remembered_ == moments && beads >= worthwhile;
+  return remembered_ == moments && beads >= worthwhile && full_.coulomb()->whole(static_cast<int>(beads) + 2);
 }
 
 template <int D>
@@ -91,6 +91,8 @@ void TwoRateMotion<D>::at_node(const Jet<D>& jet, double t, const Table<D>& y, T
   if (continues(y.rows())) {
     set_far(now);
     const double error = mismatch(jet, t, y, now) * since / tolerance_;
+    // a slow bead gains this error over and over on its whole way, while most steps err on the youngest bead
+    // only
     constexpr double aim = 3e-4, order = 4;
     interval_ = since * std::clamp(std::pow(aim / std::max(error, 1e-10), 1 / order), 0.3, 1.5);
   }
@@ -102,7 +104,7 @@ template <int D>
 Moment<D> TwoRateMotion<D>::moment(const Jet<D>& jet, double t, const Table<D>& slope) const {
   const Chain<D>& c = full_.chain();
   const Eigen::Index n = slope.rows(), nozzle = c.points() - 1;
-  Moment<D> now{t,  c.point.topRows(n + 1), c.point_charge.head(n + 1), full_.coulomb()->field(),
+  Moment<D> now{t,  c.point.topRows(n + 1),           c.point_charge.head(n + 1), full_.coulomb()->field(),
                 {}, slope.template rightCols<D + 1>()};
   if (jet.held) {
     const Vec<D> held = c.point.row(n).matrix().transpose();
@@ -132,9 +134,9 @@ void TwoRateMotion<D>::continued(const Jet<D>& jet, double t, const Table<D>& y,
 
   slope.middleRows(fast_old, slow).template leftCols<D>() =
       y.middleRows(fast_old, slow).template middleCols<D>(velocity_column<D>);
-  slope.middleRows(fast_old, slow).template rightCols<D + 1>() = w[0] * past_[0].slope.middleRows(fast_old, slow) +
-                                                                  w[1] * past_[1].slope.middleRows(fast_old, slow) +
-                                                                  w[2] * past_[2].slope.middleRows(fast_old, slow);
+  slope.middleRows(fast_old, slow).template rightCols<D + 1>() =
+      w[0] * past_[0].slope.middleRows(fast_old, slow) + w[1] * past_[1].slope.middleRows(fast_old, slow) +
+      w[2] * past_[2].slope.middleRows(fast_old, slow);
   for (const End& end : ends(n, chain_.points())) {
     set_elements<D>(chain_, jet, full_.nozzle(), t, y, {end.window.first, std::min(end.window.last, n)});
     full_.set_local(chain_, y, end.fast, slope);
@@ -157,7 +159,8 @@ void TwoRateMotion<D>::continued(const Jet<D>& jet, double t, const Table<D>& y,
 
 /// What the continuation would have given now against what is true, in the norm of the step control.
 template <int D>
-double TwoRateMotion<D>::mismatch(const Jet<D>& jet, double t, const Table<D>& y, const Moment<D>& now) const {
+double TwoRateMotion<D>::mismatch(const Jet<D>& jet, double t, const Table<D>& y,
+                                  const Moment<D>& now) const {
   Table<D> error = Table<D>::Zero(y.rows(), 2 * D + 1);
   const auto w = weights(t);
   error.template rightCols<D + 1>() =

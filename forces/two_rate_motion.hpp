@@ -1,21 +1,21 @@
 #pragma once
 /// The equations of motion at two rates: beads near the two ends of the jet are fast, the others slow.
 ///
-/// Over a few steps the field of far beads and the whole slope of slow beads change smoothly, so both are continued
-/// in time by the parabola through their last three full evaluations. At a stage of a step only the fast beads are
-/// computed:
+/// Over a few steps the field of far beads and the whole slope of slow beads change smoothly, so both are
+/// continued in time by the parabola through their last three full evaluations. At a stage of a step only the
+/// fast beads are computed:
 ///
-///     fast bead    local terms + field of the points near to its end of the chain + continued field of the rest
-///     slow bead    continued acceleration and stress rate
-///     both         field of the held bead, whose charge rises too fast to be continued
+///     fast bead    local terms + field of the points near to its end of the chain + continued field of the
+///     rest slow bead    continued acceleration and stress rate both         field of the held bead, whose
+///     charge rises too fast to be continued
 ///
-/// A full evaluation is made at an accepted point of the solution once the interval since the last one is over.
-/// There the continued values meet the true ones: their difference times the interval, in the norm of the step
-/// control, is the error of the method, of fourth order in the interval, and sets the next interval. So beads that
-/// come close in space, though far along the chain, shorten the interval.
-/// At a removal and a release the remembered values are repaired as if the bead had always been absent or present;
-/// the past of a released bead is the straight way on which it left.
-/// Source: multiple time stepping; e.g. Hairer, Norsett, Wanner, "Solving ODEs I", III.1 (continuation of the slope).
+/// A full evaluation is made at an accepted point of the solution once the interval since the last one is
+/// over. There the continued values meet the true ones: their difference times the interval, in the norm of
+/// the step control, is the error of the method, of fourth order in the interval, and sets the next interval.
+/// So beads that come close in space, though far along the chain, shorten the interval. At a removal and a
+/// release the remembered values are repaired as if the bead had always been absent or present; the past of a
+/// released bead is the straight way on which it left. Source: multiple time stepping; e.g. Hairer, Norsett,
+/// Wanner, "Solving ODEs I", III.1 (continuation of the slope).
 
 #include <array>
 
