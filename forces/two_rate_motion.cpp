@@ -93,7 +93,7 @@ void TwoRateMotion<D>::at_node(const Jet<D>& jet, double t, const Table<D>& y, T
     const double error = mismatch(jet, t, y, now) * since / tolerance_;
     // a slow bead gains this error over and over on its whole way, while most steps err on the youngest bead
     // only
-    constexpr double aim = 3e-4, order = 4;
+    constexpr double aim = 1e-4, order = 4;
     interval_ = since * std::clamp(std::pow(aim / std::max(error, 1e-10), 1 / order), 0.3, 1.5);
   }
   remember(std::move(now));

@@ -7,6 +7,7 @@
 /// is evaluated on the result ("first same as last") that stage carries weight in b* only.
 
 #include <array>
+#include <utility>
 
 #include "integrators/stepper.hpp"
 
@@ -16,31 +17,48 @@ template <int D, class Tableau>
 class EmbeddedRungeKutta final : public Stepper<D> {
  public:
   int order() const override { return Tableau::order; }
-  int evaluations() const override { return Tableau::stages - 1; }
+  int evaluations() const override { return stages - 1; }
 
   void step(Motion<D>& f, const Jet<D>& jet, const Node<D>& from, double h, Table<D>& next) override {
-    for (int i = 1; i < Tableau::stages; ++i) {
-      combine(from, h, Tableau::a[i - 1], i, stage_);
-      stage_ += from.y;
-      f(jet, from.t + Tableau::c[i] * h, stage_, k_[i]);
-    }
-    combine(from, h, Tableau::b, Tableau::stages, next);
-    next += from.y;
-    combine(from, h, Tableau::difference, Tableau::stages, this->error);
+    evaluate_stages(f, jet, from, h, std::make_integer_sequence<int, stages - 1>());
+    next = from.y + h * sum<stages>(from.slope);
+    this->error = h * sum<stages + 1>(from.slope);
   }
 
  private:
-  /// sum = h (w_0 k_0 + ... + w_{n-1} k_{n-1})
-  template <class Weights>
-  void combine(const Node<D>& from, double h, const Weights& w, int n, Table<D>& sum) {
-    sum = h * w[0] * from.slope;
-    for (int j = 1; j < n; ++j) {
-      if (w[j] != 0) sum += h * w[j] * k_[j];
+  static constexpr int stages = Tableau::stages;
+
+  template <int... previous>
+  void evaluate_stages(Motion<D>& f, const Jet<D>& jet, const Node<D>& from, double h,
+                       std::integer_sequence<int, previous...>) {
+    (evaluate_stage<previous + 1>(f, jet, from, h), ...);
+  }
+
+  template <int i>
+  void evaluate_stage(Motion<D>& f, const Jet<D>& jet, const Node<D>& from, double h) {
+    stage_ = from.y + h * sum<i>(from.slope);
+    f(jet, from.t + Tableau::c[i] * h, stage_, k_[i]);
+  }
+
+  /// Weight of slope j in stage i; stage number `stages` is the result, the one after it the error.
+  static constexpr double weight(int i, int j) {
+    return i < stages ? Tableau::a[i - 1][j] : i == stages ? Tableau::b[j] : Tableau::difference[j];
+  }
+
+  /// The slopes before stage i, weighted: one expression, one pass, zero weights left out.
+  template <int i, int j = (i < stages ? i : stages) - 1>
+  auto sum(const Table<D>& first) const {
+    if constexpr (j == 0) {
+      return weight(i, 0) * first;
+    } else if constexpr (weight(i, j) == 0) {
+      return sum<i, j - 1>(first);
+    } else {
+      return sum<i, j - 1>(first) + weight(i, j) * k_[j];
     }
   }
 
   Table<D> stage_;
-  std::array<Table<D>, Tableau::stages> k_;  ///< k_[0] is the slope of `from`
+  std::array<Table<D>, stages> k_;  ///< from the second slope on; the first is that of `from`
 };
 
 /// Dormand and Prince, "A family of embedded Runge-Kutta formulae", J. Comput. Appl. Math. 6 (1980) 19: order
