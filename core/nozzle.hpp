@@ -56,11 +56,12 @@ class Nozzle {
     return nozzle + l_step_ * (r - nozzle).normalized();
   }
 
-  /// s(d), the fraction of its charge that the held bead shows.
+  /// s(d), the fraction of its charge that the held bead shows. Past d = 2 l_step, where only the step that
+  /// goes beyond a release asks for it, it goes on smoothly: a kink inside that step would make the release
+  /// an event of third order.
   double faded_charge(const Vec<D>& r, double t) const {
     const double d = (r - position(t)).norm() / l_step_;
     if (d <= 1.5) return 0;
-    if (d >= 2.0) return 1;
     return 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (d - 1.5));
   }
 
