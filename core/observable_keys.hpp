@@ -57,8 +57,8 @@ inline constexpr auto observable_keys = std::to_array<ObservableKey>({
     {"lp", "cm", "length of the jet along its path", averaged},
     {"rlp", "1", "lp over the collector distance", averaged},
     {"angl", "degree", "full opening angle, nozzle to farthest bead"},
-    {"chn", "statC", "charge that has left the nozzle since the start"},
-    {"chc", "statC", "charge that has reached the collector since the start"},
+    {"chn", "statC", "charge of the beads placed at the nozzle in the print interval"},
+    {"chc", "statC", "charge of the beads taken by the collector in the print interval"},
     {"fcn", "statC/s", "charge per length times speed at the nozzle", averaged},
     {"fcc", "statC/s", "charge per length times speed at the collector", averaged},
 });
