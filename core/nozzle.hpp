@@ -15,9 +15,12 @@
 /// derivative. All quantities scaled. Source: paper, Sec. "Perturbations at the nozzle" and "Jet insertion";
 /// the first event is JETSPIN's, the paper tells of the second only.
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
+#include "core/error.hpp"
 #include "core/jet.hpp"
 #include "core/parameters.hpp"
 #include "core/scales.hpp"
@@ -65,9 +68,14 @@ class Nozzle {
     return 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (d - 1.5));
   }
 
-  void place(Jet<D>& jet) const { jet.held = true; }
+  /// Both throw NumericalError if the event has been missed by more than half an element.
+  void place(Jet<D>& jet) const {
+    check_timely(jet);
+    jet.held = true;
+  }
 
   void release(Jet<D>& jet) const {
+    check_timely(jet);
     const Eigen::Index youngest = jet.size() - 1;
     const Vec<D> r = treejet::position<D>(jet.y, youngest);
     Vec<D> v = treejet::velocity<D>(jet.y, youngest) / 2;
@@ -77,6 +85,16 @@ class Nozzle {
   }
 
  private:
+  void check_timely(const Jet<D>& jet) const {
+    const Eigen::Index youngest = jet.size() - 1;
+    const double late = overdue(jet, treejet::position<D>(jet.y, youngest), jet.t) / l_step_;
+    if (late <= 0.5) return;
+    throw NumericalError(fmt::format(
+        "at scaled time {}: bead {} is {:.3g} elements beyond the place where the nozzle should have "
+        "released another; likely cause: the time step is too large for events seen at step ends",
+        jet.t, youngest, late));
+  }
+
   Vec<D> on_circle(double x, double radius, double phase) const {
     Vec<D> r = Vec<D>::Zero();
     r[0] = x;
