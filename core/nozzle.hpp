@@ -15,9 +15,12 @@
 /// derivative. All quantities scaled. Source: paper, Sec. "Perturbations at the nozzle" and "Jet insertion";
 /// the first event is JETSPIN's, the paper tells of the second only.
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
+#include "core/error.hpp"
 #include "core/jet.hpp"
 #include "core/parameters.hpp"
 #include "core/scales.hpp"
@@ -56,17 +59,23 @@ class Nozzle {
     return nozzle + l_step_ * (r - nozzle).normalized();
   }
 
-  /// s(d), the fraction of its charge that the held bead shows.
+  /// s(d), the fraction of its charge that the held bead shows. Past d = 2 l_step, where only the step that
+  /// goes beyond a release asks for it, it goes on smoothly: a kink inside that step would make the release
+  /// an event of third order.
   double faded_charge(const Vec<D>& r, double t) const {
     const double d = (r - position(t)).norm() / l_step_;
     if (d <= 1.5) return 0;
-    if (d >= 2.0) return 1;
     return 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (d - 1.5));
   }
 
-  void place(Jet<D>& jet) const { jet.held = true; }
+  /// Both throw NumericalError if the event has been missed by more than half an element.
+  void place(Jet<D>& jet) const {
+    check_timely(jet);
+    jet.held = true;
+  }
 
   void release(Jet<D>& jet) const {
+    check_timely(jet);
     const Eigen::Index youngest = jet.size() - 1;
     const Vec<D> r = treejet::position<D>(jet.y, youngest);
     Vec<D> v = treejet::velocity<D>(jet.y, youngest) / 2;
@@ -76,6 +85,16 @@ class Nozzle {
   }
 
  private:
+  void check_timely(const Jet<D>& jet) const {
+    const Eigen::Index youngest = jet.size() - 1;
+    const double late = overdue(jet, treejet::position<D>(jet.y, youngest), jet.t) / l_step_;
+    if (late <= 0.5) return;
+    throw NumericalError(fmt::format(
+        "at scaled time {}: bead {} is {:.3g} elements beyond the place where the nozzle should have "
+        "released another; likely cause: the time step is too large for events seen at step ends",
+        jet.t, youngest, late));
+  }
+
   Vec<D> on_circle(double x, double radius, double phase) const {
     Vec<D> r = Vec<D>::Zero();
     r[0] = x;

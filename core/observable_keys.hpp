@@ -57,10 +57,10 @@ inline constexpr auto observable_keys = std::to_array<ObservableKey>({
     {"lp", "cm", "length of the jet along its path", averaged},
     {"rlp", "1", "lp over the collector distance", averaged},
     {"angl", "degree", "full opening angle, nozzle to farthest bead"},
-    {"chn", "statC", "charge of the beads placed at the nozzle in the interval"},
-    {"chc", "statC", "charge of the beads that arrived in the interval"},
-    {"fcn", "statC/s", "current at the nozzle, beads counted in parts", averaged},
-    {"fcc", "statC/s", "current at the collector, beads counted in parts", averaged},
+    {"chn", "statC", "charge of the beads placed at the nozzle in the print interval"},
+    {"chc", "statC", "charge of the beads taken by the collector in the print interval"},
+    {"fcn", "statC/s", "charge per length times speed at the nozzle", averaged},
+    {"fcc", "statC/s", "charge per length times speed at the collector", averaged},
 });
 
 }  // namespace treejet

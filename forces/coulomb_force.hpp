@@ -39,7 +39,6 @@ class CoulombForce final : public ForceTerm<D> {
   }
 
   double Q() const { return Q_; }
-  bool whole(int points) const { return reach_ >= points - 1; }  ///< no pair is cut off
 
   /// E at the beads, as `add` last computed it.
   const typename Chain<D>::Points& field() const { return field_; }

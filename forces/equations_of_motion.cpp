@@ -47,9 +47,11 @@ void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const Table<D
 }
 
 template <int D>
-void EquationsOfMotion<D>::set_local(const Chain<D>& chain, const Table<D>& y, Rows rows, Table<D>& slope) const {
+void EquationsOfMotion<D>::set_local(const Chain<D>& chain, const Table<D>& y, Rows rows,
+                                     Table<D>& slope) const {
   const int i = rows.first, n = rows.size();
-  slope.middleRows(i, n).template leftCols<D>() = y.middleRows(i, n).template middleCols<D>(velocity_column<D>);
+  slope.middleRows(i, n).template leftCols<D>() =
+      y.middleRows(i, n).template middleCols<D>(velocity_column<D>);
   slope.middleRows(i, n).template middleCols<D>(velocity_column<D>).setZero();
   stress_law_->set(chain, rows, slope.col(stress_column<D>));
   Acceleration<D> acceleration = slope.template middleCols<D>(velocity_column<D>);

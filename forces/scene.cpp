@@ -32,10 +32,11 @@ Jet<D> initial_jet(const Parameters& p) {
   return jet;
 }
 
-/// The deck's cutoff is a length of jet as it leaves the nozzle, hence a number of points.
+/// The deck's cutoff is a length of jet as it leaves the nozzle, hence a number of points; without one all
+/// pairs count.
 int reach(const Parameters& p) {
-  const double cutoff = p.cutoff.value_or(p.collector_distance);
-  return static_cast<int>(std::min(std::ceil(cutoff / scales(p).l_step), 2e9));
+  constexpr double all = 2e9;
+  return static_cast<int>(p.cutoff ? std::min(std::ceil(*p.cutoff / scales(p).l_step), all) : all);
 }
 
 template <int D>
@@ -87,9 +88,9 @@ class Composer {
   bool two_rates() {
     const char* why_not = !p_.tolerance                   ? "a fixed timestep has no error to hold"
                           : p_.multirate == Multirate::no ? "multirate no"
+                          : p_.cutoff                     ? "cutoff"
                           : g_.Q == 0                     ? "no Coulomb sum"
-                          : p_.cutoff.value_or(p_.collector_distance) < p_.collector_distance ? "cutoff"
-                                                                                              : nullptr;
+                                                          : nullptr;
     note(!why_not, "two rates", "multirate auto", why_not);
     return !why_not;
   }

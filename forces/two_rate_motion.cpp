@@ -71,7 +71,7 @@ void drop_first_row(Array& a) {
 template <int D>
 bool TwoRateMotion<D>::continues(Eigen::Index beads) const {
   constexpr int worthwhile = 64;  // below, a full evaluation is as cheap
-  return remembered_ == moments && beads >= worthwhile && full_.coulomb()->whole(static_cast<int>(beads) + 2);
+  return remembered_ == moments && beads >= worthwhile;
 }
 
 template <int D>

@@ -46,6 +46,13 @@ std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, st
       return fmt::format("bead {} has moved back behind the nozzle; likely cause: {}", y.rows() - 1,
                          "the time step is too large, or the pull of the field too weak to draw a jet");
     }
+  } else {
+    for (Eigen::Index i = 0; i + 1 < y.rows(); ++i) {
+      const Vec<D> element = position<D>(y, i) - position<D>(y, i + 1);
+      if (element.dot(position<D>(before, i) - position<D>(before, i + 1)) > 0) continue;
+      return fmt::format("beads {} and {} have swapped sides within one step; likely cause: {}", i, i + 1,
+                         "the time step is too large, or the beads have met");
+    }
   }
   return std::nullopt;
 }

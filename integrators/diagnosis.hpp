@@ -8,8 +8,9 @@
 
 namespace treejet {
 
-/// Empty if every number of y is finite and, in one dimension, the beads are in order; else a sentence that
-/// names the bead and the likely cause. `before` is the last good state, with the same rows.
+/// Empty if every number of y is finite and the beads are in order: in one dimension along x, in three
+/// without an element that has turned by more than a right angle within the step. Else a sentence that names
+/// the bead and the likely cause. `before` is the last good state, with the same rows.
 template <int D>
 std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, std::int64_t removed);
 
