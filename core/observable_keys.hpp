@@ -59,8 +59,8 @@ inline constexpr auto observable_keys = std::to_array<ObservableKey>({
     {"angl", "degree", "full opening angle, nozzle to farthest bead"},
     {"chn", "statC", "charge of the beads placed at the nozzle in the print interval"},
     {"chc", "statC", "charge of the beads taken by the collector in the print interval"},
-    {"fcn", "statC/s", "charge per length times speed at the nozzle", averaged},
-    {"fcc", "statC/s", "charge per length times speed at the collector", averaged},
+    {"fcn", "statC/s", "curn with the part of the next bead counted that is drawn out already", averaged},
+    {"fcc", "statC/s", "curc with the part of the way counted that the next bead has gone", averaged},
 });
 
 }  // namespace treejet

@@ -10,8 +10,8 @@ namespace treejet {
 
 namespace {
 
-constexpr int fast_old = 8, fast_young = 16;  ///< beads at the two ends
-constexpr int near = 16;  ///< further points whose field on the fast beads is not continued
+constexpr int fast_old = 8, fast_young = 24;  ///< beads at the two ends
+constexpr int near = 24;  ///< further points whose field on the fast beads is not continued
 
 /// A fast end of the chain, and the points near to it.
 struct End {
@@ -93,7 +93,7 @@ void TwoRateMotion<D>::at_node(const Jet<D>& jet, double t, const Table<D>& y, T
     const double error = mismatch(jet, t, y, now) * since / tolerance_;
     // a slow bead gains this error over and over on its whole way, while most steps err on the youngest bead
     // only
-    constexpr double aim = 1e-4, order = 4;
+    constexpr double aim = 1e-3, order = 4;
     interval_ = since * std::clamp(std::pow(aim / std::max(error, 1e-10), 1 / order), 0.3, 1.5);
   }
   remember(std::move(now));
