@@ -46,7 +46,7 @@ struct Contraction {
     if constexpr (m >= 0) {
       for (int c = 0; c <= last_plane; ++c) {
         const int j = p - m - c;
-        if (j >= 0) row<m, 0>(S, D + at(0, j, c), T + at(0, j, c));
+        if (j >= 0) row<m, 0>(S, D + at(0, j, c) - at(0, 0, 0), T + at(0, j, c));
       }
       rows<m - 1, 1>(S, D, T, p);
     }
@@ -54,7 +54,7 @@ struct Contraction {
 
   template <int p>
   static void order(const Pack* S, const Pack* D, Pack* T) {
-    row<p, 1>(S, D, T);
+    row<p, 1>(S, D, T + at(0, 0, 0));
     rows<p - 1, 1>(S, D, T, p);
   }
 

@@ -19,6 +19,7 @@ struct ExpansionKernel {
     Pack P[2 * plane], M[2 * plane];
     const int degree = x.order - 1;
     Terms::clear(degree, 2, M);
+    Terms::frame(degree, P);
     for (int k = 0; k < points.count; k += lanes) {
       const int left = points.count - k, first = points.first + k;
       Pack d[3] = {};
@@ -38,6 +39,7 @@ struct ExpansionKernel {
   static void m2m(const Expansions& x, CellRange parents, CellRange children) {
     Pack P[2 * plane], S[2 * plane], T[3 * plane];
     const int degree = x.order - 1;
+    Terms::frame(degree, P);
     for (int first = parents.first; first < parents.last; first += lanes) {
       Terms::clear(degree, 3, T);
       double* parent_terms[lanes];
@@ -71,6 +73,7 @@ struct ExpansionKernel {
     Pack D[3 * plane], S[2 * plane], T[2 * plane];
     const int p = x.order;
     Terms::clear(p, 2, T);
+    Terms::frame(p, D);
     for (int k = 0; k < count; k += lanes) {
       double R[3][lanes];
       const double* terms[lanes];
@@ -90,6 +93,7 @@ struct ExpansionKernel {
   static void l2l(const Expansions& x, CellRange parents, CellRange children) {
     Pack P[2 * plane], D[3 * plane], T[2 * plane];
     const int p = x.order;
+    Terms::frame(p - 1, P);
     for (int first = children.first; first < children.last; first += lanes) {
       double d[3][lanes];
       const double* parent_terms[lanes];
@@ -115,6 +119,7 @@ struct ExpansionKernel {
   static void l2p(const Expansions& x, int cell, const CellPoints& points, double* const* field) {
     Pack P[2 * plane];
     const int degree = x.order - 1;
+    Terms::frame(degree, P);
     const double* L = x.locals + static_cast<long>(cell) * x.local_stride;
     for (int k = 0; k < points.count; k += lanes) {
       const int left = points.count - k, first = points.first + k;

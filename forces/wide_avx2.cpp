@@ -24,7 +24,7 @@ struct Avx2 {
     return (q * y) * y2 * (1 + e * (3. / 2 + e * (15. / 8 + e * (35. / 16 + e * (315. / 128)))));
   }
 
-  static Pack root(Pack x) { return _mm256_sqrt_pd(x); }
+  static Pack over_root(Pack x) { return 1 / _mm256_sqrt_pd(x); }
 
   /// Row l, lane k becomes row k, lane l.
   static void transpose(Pack (&row)[4]) {

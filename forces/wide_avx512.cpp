@@ -21,7 +21,11 @@ struct Avx512 {
     return (q * y) * y2 * (1 + e * (3. / 2 + e * (15. / 8 + e * (35. / 16))));
   }
 
-  static Pack root(Pack x) { return _mm512_maskz_sqrt_pd(0xff, x); }
+  static Pack over_root(Pack x) {
+    const Pack y = _mm512_maskz_rsqrt14_pd(0xff, x);
+    const Pack e = 1 - x * y * y;
+    return y + y * e * (1. / 2 + e * (3. / 8 + e * (5. / 16)));
+  }
 
   /// Row l, lane k becomes row k, lane l: pairs, then quarters, then halves of registers.
   static void transpose(Pack (&row)[8]) {

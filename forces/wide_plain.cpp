@@ -12,6 +12,8 @@ struct Plain {
 
   static Pack over_cube(double q, Pack d2) { return q / (d2 * root(d2)); }
 
+  static Pack over_root(Pack x) { return 1 / root(x); }
+
   static Pack root(Pack x) { return Pack{__builtin_sqrt(x[0]), __builtin_sqrt(x[1])}; }
 
   /// Row l, lane k becomes row k, lane l.

@@ -2,8 +2,9 @@
 /// The series of multipole.hpp for one register's worth of cells at a time: lane k belongs to the k-th cell.
 ///
 /// On the stack, term (i, j, c) of every degree stands at the same place, rows of i contiguous, rows a fixed
-/// distance apart: so the kernels' inner loops serve all orders. In memory (one cell after the other) the
-/// terms are packed as in Series::place; `gather` and the sums over lanes move between the two.
+/// distance apart: so the kernels' inner loops serve all orders. Terms with i or j = -1 or -2 are there too,
+/// and zero, which spares the recurrences their special cases. In memory (one cell after the other) the terms
+/// are packed as in Series::place; `gather` and the sums over lanes move between the two.
 
 #include "forces/wide.hpp"
 
@@ -11,11 +12,11 @@ namespace treejet {
 namespace {
 
 constexpr int highest_order = 14;
-constexpr int row_length = highest_order + 1;
+constexpr int row_length = highest_order + 3;
 constexpr int plane = row_length * row_length;
 
 constexpr int at(int i, int j, int c) {
-  return c * plane + j * row_length + i;
+  return c * plane + (j + 2) * row_length + i + 2;
 }
 
 /// Where (i, j, c) stands in memory, in the packed series of a degree: Series::place.
@@ -29,10 +30,10 @@ constexpr int spare = at(highest_order, highest_order, 1);
 /// at_[degree][k]: the place on the stack of the k-th packed term. Terms beyond the last, which pad a cell to
 /// a multiple of 8, go to `spare`.
 struct PackedPlaces {
-  static constexpr int longest = (row_length * row_length + 7) / 8 * 8;
-  short at_[row_length][longest]{};
+  static constexpr int longest = ((highest_order + 1) * (highest_order + 1) + 7) / 8 * 8;
+  short at_[highest_order + 1][longest]{};
   constexpr PackedPlaces() {
-    for (int degree = 0; degree < row_length; ++degree) {
+    for (int degree = 0; degree <= highest_order; ++degree) {
       int k = 0;
       for (int c = 0; c <= 1; ++c)
         for (int j = 0; j + c <= degree; ++j)
@@ -48,44 +49,57 @@ struct WideSeries {
   static constexpr int lanes = Isa::lanes;
   using Pack = Wide<double, lanes>;
 
-  /// P_a(d) for |a| <= degree (multipole.cpp, `polynomials`).
-  static void polynomials(int degree, Pack x, Pack y, Pack z, Pack* P) {
-    P[0] = Pack{} + 1;
-    for (int n = 1; n <= degree; ++n)
-      for (int c = 0; c <= 1; ++c)
-        for (int j = 0; j + c <= n; ++j) {
-          const int i = n - j - c;
-          Pack sum = c == 1 ? z * P[at(i, j, 0)] : Pack{};
-          if (i >= 1) sum += x * P[at(i - 1, j, c)];
-          if (j >= 1) sum += y * P[at(i, j - 1, c)];
-          if (c == 0 && i >= 2) sum -= z * P[at(i - 2, j, 1)];
-          if (c == 0 && j >= 2) sum -= z * P[at(i, j - 2, 1)];
-          P[at(i, j, c)] = sum * (1.0 / n);
-        }
+  /// The zeros around the terms of a degree, which `polynomials` and `derivatives` read and leave alone.
+  static void frame(int degree, Pack* S) {
+    for (int c = 0; c <= 1; ++c)
+      for (int k = 0; k <= degree; ++k)
+        for (int before = 1; before <= 2; ++before) S[at(-before, k, c)] = S[at(k, -before, c)] = Pack{};
   }
 
-  /// D_a(R) for |a| <= degree (multipole.cpp, `derivatives`), the plane c = 2 included.
+  /// P_a(d) for |a| <= degree (multipole.cpp, `polynomials`), in a framed series.
+  static void polynomials(int degree, Pack x, Pack y, Pack z, Pack* P) {
+    P[at(0, 0, 0)] = Pack{} + 1;
+    for (int n = 1; n <= degree; ++n) {
+      const double over_n = 1.0 / n;
+      for (int j = 0; j <= n; ++j) {
+        const int i = n - j;
+        P[at(i, j, 0)] = over_n * (x * P[at(i - 1, j, 0)] + y * P[at(i, j - 1, 0)] -
+                                   z * (P[at(i - 2, j, 1)] + P[at(i, j - 2, 1)]));
+      }
+      for (int j = 0; j <= n - 1; ++j) {
+        const int i = n - 1 - j;
+        P[at(i, j, 1)] = over_n * (x * P[at(i - 1, j, 1)] + y * P[at(i, j - 1, 1)] + z * P[at(i, j, 0)]);
+      }
+    }
+  }
+
+  /// D_a(R) for |a| <= degree (multipole.cpp, `derivatives`), the plane c = 2 included, in a framed series.
   static void derivatives(int degree, Pack x, Pack y, Pack z, Pack* D) {
-    const Pack over_R2 = 1 / (x * x + y * y + z * z);
-    Pack ix[row_length], jy[row_length], ii[row_length];
+    const Pack over_R = Isa::over_root(x * x + y * y + z * z), over_R2 = over_R * over_R;
+    Pack ix[highest_order + 1], jy[highest_order + 1], ii[highest_order + 1];
+    x *= over_R2;
+    y *= over_R2;
     z *= over_R2;
     for (int i = 0; i <= degree; ++i) {
-      ix[i] = i * (x * over_R2);
-      jy[i] = i * (y * over_R2);
-      ii[i] = (i * (i - 1)) * over_R2;
+      const double real = i;
+      ix[i] = real * x;
+      jy[i] = real * y;
+      ii[i] = real * (real - 1) * over_R2;
     }
-    D[0] = Isa::root(over_R2);
-    for (int n = 1; n <= degree; ++n)
-      for (int c = 0; c <= 1; ++c)
-        for (int j = 0; j + c <= n; ++j) {
-          const int i = n - j - c;
-          Pack first = c == 1 ? z * D[at(i, j, 0)] : Pack{}, second{};
-          if (i >= 1) first += ix[i] * D[at(i - 1, j, c)];
-          if (j >= 1) first += jy[j] * D[at(i, j - 1, c)];
-          if (i >= 2) second += ii[i] * D[at(i - 2, j, c)];
-          if (j >= 2) second += ii[j] * D[at(i, j - 2, c)];
-          D[at(i, j, c)] = first * (1.0 / n - 2) + second * (1.0 / n - 1);
-        }
+    D[at(0, 0, 0)] = over_R;
+    for (int n = 1; n <= degree; ++n) {
+      const double f = 1.0 / n - 2, g = 1.0 / n - 1;
+      for (int j = 0; j <= n; ++j) {
+        const int i = n - j;
+        D[at(i, j, 0)] = f * (ix[i] * D[at(i - 1, j, 0)] + jy[j] * D[at(i, j - 1, 0)]) +
+                         g * (ii[i] * D[at(i - 2, j, 0)] + ii[j] * D[at(i, j - 2, 0)]);
+      }
+      for (int j = 0; j <= n - 1; ++j) {
+        const int i = n - 1 - j;
+        D[at(i, j, 1)] = f * (ix[i] * D[at(i - 1, j, 1)] + jy[j] * D[at(i, j - 1, 1)] + z * D[at(i, j, 0)]) +
+                         g * (ii[i] * D[at(i - 2, j, 1)] + ii[j] * D[at(i, j - 2, 1)]);
+      }
+    }
     fold(degree, D);
   }
 
