@@ -26,6 +26,26 @@ void for_each_block(Threads threads, Rows rows, int block, const std::function<v
   if (failure) std::rethrow_exception(failure);
 }
 
-int available_cores() { return omp_get_num_procs(); }
+void for_each_task(Threads threads, int count, const std::function<void(int)>& f) {
+  if (threads.count <= 1 || count <= 1) {
+    for (int k = 0; k < count; ++k) f(k);
+    return;
+  }
+  std::exception_ptr failure;
+  std::atomic_flag failed = ATOMIC_FLAG_INIT;
+#pragma omp parallel for num_threads(threads.count) schedule(dynamic, 1)
+  for (int k = 0; k < count; ++k) {
+    try {
+      f(k);
+    } catch (...) {
+      if (!failed.test_and_set()) failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+int available_cores() {
+  return omp_get_num_procs();
+}
 
 }  // namespace treejet

@@ -1,9 +1,10 @@
 #pragma once
 /// Threads: the only `omp parallel` of the project.
 ///
-/// Invariant: a block of rows is computed by exactly one thread, and blocks start at multiples of `block` counted
-/// from row 0, whatever the number of threads; a function of rows therefore gives the same bits on any number of
-/// threads. The first exception thrown in a block is rethrown to the caller once all threads are done.
+/// Invariant: a block of rows is computed by exactly one thread, and blocks start at multiples of `block`
+/// counted from row 0, whatever the number of threads; a function of rows therefore gives the same bits on
+/// any number of threads. The first exception thrown in a block is rethrown to the caller once all threads
+/// are done.
 
 #include <functional>
 
@@ -17,6 +18,10 @@ struct Threads {
 
 /// Calls f on blocks that cover `rows`; with one thread a single call f(rows).
 void for_each_block(Threads threads, Rows rows, int block, const std::function<void(Rows)>& f);
+
+/// Calls f(0), ..., f(count - 1), each once, a free thread taking the next: for tasks of unequal size that
+/// write to places of their own, so that it does not matter which thread takes which.
+void for_each_task(Threads threads, int count, const std::function<void(int)>& f);
 
 /// Cores this process may run on (affinity respected).
 int available_cores();
