@@ -36,12 +36,16 @@ void CoulombTree::arrange(const PointCharges<3>& points, const TreeShape& shape,
   copy_points(points, threads);
   const double* const r[3] = {r_[0].data(), r_[1].data(), r_[2].data()};
   cells_.enclose(r, q_.data(), threads);
-  reshape(shape.order, shape.opening, threads);
+  expand(shape.order, threads);
 }
 
 void CoulombTree::reshape(int order, double opening, Threads threads) {
-  shape_.order = order;
   shape_.opening = opening;
+  if (order != shape_.order) expand(order, threads);
+  shape_.order = order;
+}
+
+void CoulombTree::expand(int order, Threads threads) {
   expansions_ = {order, padded(Series::terms(order - 1)), padded(Series::terms(order)), {}, {}, {}};
   for (int e = 0; e < 3; ++e) expansions_.centre[e] = cells_.centre(e);
   moments_.resize(index(cells_.size()) * index(expansions_.moment_stride));
@@ -130,14 +134,29 @@ Interactions CoulombTree::evaluate(const std::vector<int>& leaves, Rows rows, co
       const CellPoints points = leaf_cell(leaf);
       double* const E[3] = {field_[0].data(), field_[1].data(), field_[2].data()};
       if (shape_.local) kernels_->l2p(expansions_, cells_.level(cells_.levels() - 1).first + leaf, points, E);
-      for (int k = points.first; k < points.first + points.count; ++k) {
-        const int i = source(k);
-        if (i >= rows.first && i < rows.last)
-          for (std::size_t e = 0; e < 3; ++e) field[e][i] = E[e][k];
-      }
+      give(leaf, rows, field);
     }
   });
   return done;
+}
+
+void CoulombTree::evaluate_directly(const std::vector<int>& leaves, const FieldArrays<3>& field,
+                                    Threads threads) {
+  const CellRange all = {0, cells_.points()};
+  for_each_task(threads, static_cast<int>(leaves.size()), [&](int n) {
+    double* const E[3] = {field_[0].data(), field_[1].data(), field_[2].data()};
+    kernels_->p2p(leaf_cell(leaves[index(n)]), &all, 1, E);
+    give(leaves[index(n)], {all.first, all.last}, field);
+  });
+}
+
+void CoulombTree::give(int leaf, Rows rows, const FieldArrays<3>& field) const {
+  const Rows points = cells_.leaf_points(leaf);
+  for (int k = points.first; k < points.last; ++k) {
+    const int i = source(k);
+    if (i >= rows.first && i < rows.last)
+      for (std::size_t e = 0; e < 3; ++e) field[e][i] = field_[e][index(k)];
+  }
 }
 
 /// Neighbouring leaves are neighbouring points: one range of sources.
@@ -198,6 +217,21 @@ Interactions CoulombTree::local_expansions(Threads threads) {
   return std::accumulate(done.begin(), done.end(), Interactions{}, [](Interactions a, const Interactions& b) {
     return Interactions{a.pairs + b.pairs, a.expansions + b.expansions};
   });
+}
+
+Interactions CoulombTree::count() const {
+  Interactions work;
+  Traversal(cells_, shape_.opening)
+      .walk(
+          0, 0, {0}, -1, [](int) { return true; },
+          [&](int, const std::vector<int>& far) {
+            work.expansions += static_cast<int>((far.size() + 7) / 8 * 8);
+          },
+          [&](int leaf, const std::vector<int>& near) {
+            for (int k : near) work.pairs += cells_.leaf_points(leaf).size() * cells_.leaf_points(k).size();
+          },
+          [](int, int, const std::vector<int>&) {});
+  return work;
 }
 
 void CoulombTree::move_down(Threads threads) {

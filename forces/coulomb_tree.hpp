@@ -54,12 +54,19 @@ class CoulombTree {
   Interactions evaluate(const std::vector<int>& leaves, Rows rows, const FieldArrays<3>& field,
                         Threads threads);
 
+  /// The same by direct summation.
+  void evaluate_directly(const std::vector<int>& leaves, const FieldArrays<3>& field, Threads threads);
+  /// What `evaluate` would do for all points, with M2L counted in full registers; no sums are done.
+  Interactions count() const;
+
   const TreeShape& shape() const { return shape_; }
 
  private:
   int source(int k) const { return order_.empty() ? k : order_[static_cast<std::size_t>(k)]; }
   void copy_points(const PointCharges<3>& points, Threads threads);
+  void expand(int order, Threads threads);
   void move_up(Threads threads);
+  void give(int leaf, Rows rows, const FieldArrays<3>& field) const;
   void move_down(Threads threads);
   Interactions local_expansions(Threads threads);
   Interactions barnes_hut(Threads threads);
