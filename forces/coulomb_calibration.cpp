@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace treejet {
 
 namespace {
 
-constexpr int sampled_leaves = 32;
+constexpr int sampled_points = 1024;
 constexpr double margin = 1.25;
-constexpr double openings[] = {0.80, 0.70, 0.62, 0.55, 0.50, 0.45, 0.40, 0.35, 0.30,
-                               0.26, 0.23, 0.20, 0.17, 0.15, 0.13, 0.11, 0.09};
+/// From wide to narrow in steps of 7 %: the error is a staircase of them, since whole shells of leaves change
+/// from far to near.
+constexpr double widest_opening = 0.8, narrowest_opening = 0.05, step = 0.93;
 
 /// The order that usually costs least; measured on jets and coils.
 int usual_order(double accuracy) {
@@ -26,7 +28,7 @@ CoulombChoice direct_because(const std::string& reason) {
 }  // namespace
 
 CoulombSample::CoulombSample(int points, CoulombTree& tree, Threads threads)
-    : n_(points), leaves_(tree.sample_leaves(sampled_leaves)) {
+    : n_(points), leaves_(tree.sample_leaves(sampled_points / tree.shape().leaf)) {
   for (auto& values : direct_) values.assign(static_cast<std::size_t>(n_), 0.0);
   for (auto& values : tried_) values.assign(static_cast<std::size_t>(n_), 0.0);
   const FieldArrays<3> field = {direct_[0].data(), direct_[1].data(), direct_[2].data()};
@@ -65,14 +67,15 @@ double CoulombSample::error(CoulombTree& tree, Threads threads) {
 
 double price(const Interactions& work, const TreeShape& shape, int points, VectorPath path) {
   // an M2L of order 2, 3, ..., 14; measured, and so is the rest
-  constexpr double wide[] = {20, 28, 39, 61, 88, 130, 181, 250, 336, 445, 575, 740, 948};
-  constexpr double narrow[] = {14, 19, 29, 41, 73, 97, 125, 185, 256, 330, 416, 530, 672};
+  constexpr double wide[] = {20, 30, 40, 57, 80, 115, 160, 225, 320, 410, 520, 680, 860};
+  constexpr double narrow[] = {15, 20, 30, 43, 70, 97, 125, 185, 256, 330, 416, 530, 672};
+  const double p = shape.order, n = points;
   const double expansion = (path == VectorPath::avx512 ? wide : narrow)[shape.order - 2];
-  const double point =
-      40 + 1.9 * shape.order * shape.order;  // P2M, L2P, copies; M2M and L2L for leaves of 32
-  const double sort = shape.block == 0 ? 0 : 150.0 / shape.block + 10;
+  const double point = 40 + 1.25 * p * p;  // P2M, L2P, copies
+  const double leaf = 2 * p * p * p;       // M2M and L2L
+  const double sort = shape.block == 0 ? 0 : 10 + 150.0 / shape.block;
   return static_cast<double>(work.pairs) + expansion * static_cast<double>(work.expansions) +
-         (point + sort) * points;
+         (point + sort) * n + leaf * n / shape.leaf;
 }
 
 int direct_below(double accuracy, VectorPath path) {
@@ -80,6 +83,69 @@ int direct_below(double accuracy, VectorPath path) {
   const double wide = 250 * digits * digits / 2;
   return static_cast<int>(path == VectorPath::avx512 ? wide : 0.7 * wide);
 }
+
+namespace {
+
+/// Chain or space: the order of points with the least work at this shape.
+TreeShape cheapest_order(const PointCharges<3>& points, const CoulombRequest& request, TreeShape shape,
+                         VectorPath path, CoulombTree& tree, Threads threads) {
+  TreeShape best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int block : {0, 16, 4, 1}) {
+    if (request.space && *request.space != (block > 0)) continue;
+    shape.block = block;
+    TreeShape cheap = shape;
+    cheap.order = 2;
+    tree.arrange(points, cheap, threads);
+    const double work = price(tree.count(), shape, points.n, path);
+    if (work < least) {
+      least = work;
+      best = shape;
+    }
+  }
+  return best;
+}
+
+/// The search for the cheapest shape that is accurate enough.
+struct Search {
+  const PointCharges<3>& points;
+  const CoulombRequest& request;
+  VectorPath path;
+  CoulombTree& tree;
+  Threads threads;
+  double least = std::numeric_limits<double>::infinity();
+  CoulombChoice best{};
+
+  /// The widest opening that is accurate enough at each of these orders, from a bit wider than `widest` down.
+  void try_orders(const TreeShape& shape, std::initializer_list<int> orders, double widest) {
+    tree.arrange(points, shape, threads);
+    CoulombSample sample(points.n, tree, threads);
+    for (int order : orders)
+      if (order >= 2 && order <= 14) try_openings(order, sample, widest);
+  }
+
+  void try_openings(int order, CoulombSample& sample, double widest) {
+    for (double opening = request.opening.value_or(widest); opening > narrowest_opening; opening *= step) {
+      tree.reshape(order, opening, threads);
+      const double error = sample.error(tree, threads);
+      ++best.measurements;
+      const bool pinned = request.opening.has_value();
+      if (error <= request.accuracy || (pinned && request.order)) {
+        const double work = price(tree.count(), tree.shape(), points.n, path);
+        if (work < least) {
+          least = work;
+          best.direct = false;
+          best.shape = tree.shape();
+          best.expected_error = error;
+        }
+        return;
+      }
+      if (pinned) return;
+    }
+  }
+};
+
+}  // namespace
 
 CoulombChoice coulomb_choice(const PointCharges<3>& points, const CoulombRequest& request, VectorPath path,
                              CoulombTree& tree, Threads threads) {
@@ -92,52 +158,34 @@ CoulombChoice coulomb_choice(const PointCharges<3>& points, const CoulombRequest
   shape.order = request.order.value_or(usual_order(request.accuracy));
   shape.opening = request.opening.value_or(0.4);
   shape.leaf = request.leaf.value_or(32);
-  double least = 0;
-  TreeShape best = shape;
-  for (int block : {0, 16, 4, 1}) {
-    if (request.space && *request.space != (block > 0)) continue;
-    shape.block = block;
-    tree.arrange(points, {2, shape.opening, shape.leaf, block, shape.local}, threads);
-    const double work = price(tree.count(), shape, points.n, path);
-    if (least == 0 || work < least) best = shape, least = work;
-  }
-  shape = best;
+  shape = cheapest_order(points, request, shape, path, tree, threads);
 
-  tree.arrange(points, shape, threads);
-  CoulombSample sample(points.n, tree, threads);
-  CoulombChoice choice;
-  least = 0;
+  Search search{points, request, path, tree, threads};
   const int usual = shape.order;
-  for (int order : {usual, usual + 1, usual - 1, usual + 2}) {
-    if (request.order ? order != usual : order < 2 || order > 14) continue;
-    for (double opening : openings) {
-      if (request.opening) opening = *request.opening;
-      tree.reshape(order, opening, threads);
-      const double error = sample.error(tree, threads);
-      ++choice.measurements;
-      if (error <= request.accuracy) {
-        const double work = price(tree.count(), tree.shape(), points.n, path);
-        if (least == 0 || work < least) {
-          least = work;
-          choice.shape = tree.shape();
-          choice.expected_error = error;
-        }
-        break;
-      }
-      if (request.opening) break;
+  if (request.order)
+    search.try_orders(shape, {usual}, widest_opening);
+  else
+    search.try_orders(shape, {usual, usual + 1, usual - 1, usual + 2}, widest_opening);
+  if (!request.leaf && !search.best.direct) {
+    const TreeShape found = search.best.shape;
+    for (int leaf : {16, 64}) {
+      shape = found;
+      shape.leaf = leaf;
+      search.try_orders(shape, {found.order}, std::min(widest_opening, found.opening * 1.3));
     }
   }
-  if (least == 0 && request.order && request.opening) {
-    choice.shape = tree.shape();
-    choice.reason = "pinned, less accurate than asked for";
-    choice.expected_error = sample.error(tree, threads);
-  } else if (least == 0) {
-    return direct_because("no tree is as accurate as asked for");
-  } else if (automatic && least > 0.9 * static_cast<double>(points.n) * points.n) {
-    return direct_because("no tree of this accuracy would be faster");
+
+  CoulombChoice& choice = search.best;
+  if (choice.direct) {
+    choice.reason = "no tree is as accurate as asked for";
+  } else if (automatic && search.least > 0.9 * static_cast<double>(points.n) * points.n) {
+    choice.direct = true;
+    choice.reason = "no tree of this accuracy would be faster";
+  } else {
+    choice.reason = choice.expected_error <= request.accuracy ? "cheapest accurate shape"
+                                                              : "pinned: less accurate than asked for";
+    tree.arrange(points, choice.shape, threads);
   }
-  choice.direct = false;
-  tree.reshape(choice.shape.order, choice.shape.opening, threads);
   return choice;
 }
 

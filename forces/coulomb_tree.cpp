@@ -160,7 +160,7 @@ void CoulombTree::give(int leaf, Rows rows, const FieldArrays<3>& field) const {
 }
 
 /// Neighbouring leaves are neighbouring points: one range of sources.
-void CoulombTree::act_near(int leaf, const std::vector<int>& near) {
+void CoulombTree::act_near(int leaf, std::span<const int> near) {
   std::vector<CellRange> sources;
   for (int k : near) {
     const Rows rows = cells_.leaf_points(k);
@@ -181,35 +181,37 @@ Interactions CoulombTree::local_expansions(Threads threads) {
   };
   int cut = 0;
   while (cut < cells_.levels() - 1 && cells_.level(cut).last - cells_.level(cut).first < 64) ++cut;
-  const Traversal traversal(cells_, shape_.opening);
   const auto walked = [this](int cell) { return wanted(cell); };
 
   std::vector<Task> tasks;
-  traversal.walk(
-      0, 0, {0}, cut, walked,
-      [&](int cell, const std::vector<int>& far) {
-        tasks.push_back({0, cell, far, false});
-      },
-      [](int, const std::vector<int>&) {},
-      [&](int level, int cell, const std::vector<int>& candidates) {
-        tasks.push_back({level, cell, candidates, true});
-      });
+  const int root[] = {0};
+  Traversal(cells_, shape_.opening)
+      .walk(
+          0, 0, root, cut, walked,
+          [&](int cell, std::span<const int> far) {
+            tasks.push_back({0, cell, {far.begin(), far.end()}, false});
+          },
+          [](int, std::span<const int>) {},
+          [&](int level, int cell, std::span<const int> candidates) {
+            tasks.push_back({level, cell, {candidates.begin(), candidates.end()}, true});
+          });
 
   std::vector<Interactions> done(tasks.size());
   for_each_task(threads, static_cast<int>(tasks.size()), [&](int t) {
     const Task& task = tasks[index(t)];
     Interactions& count = done[index(t)];
-    const auto far = [&](int cell, const std::vector<int>& sources) {
+    const auto far = [&](int cell, std::span<const int> sources) {
       kernels_->m2l(expansions_, cell, sources.data(), static_cast<int>(sources.size()));
       count.expansions += static_cast<int>(sources.size());
     };
-    const auto near = [&](int leaf, const std::vector<int>& leaves) {
+    const auto near = [&](int leaf, std::span<const int> leaves) {
       act_near(leaf, leaves);
       for (int k : leaves) count.pairs += cells_.leaf_points(leaf).size() * cells_.leaf_points(k).size();
     };
     if (task.subtree)
-      traversal.walk(task.level, task.cell, task.sources, -1, walked, far, near,
-                     [](int, int, const std::vector<int>&) {});
+      Traversal(cells_, shape_.opening)
+          .walk(task.level, task.cell, task.sources, -1, walked, far, near,
+                [](int, int, std::span<const int>) {});
     else
       far(task.cell, task.sources);
   });
@@ -220,17 +222,18 @@ Interactions CoulombTree::local_expansions(Threads threads) {
 }
 
 Interactions CoulombTree::count() const {
+  const int root[] = {0};
   Interactions work;
   Traversal(cells_, shape_.opening)
       .walk(
-          0, 0, {0}, -1, [](int) { return true; },
-          [&](int, const std::vector<int>& far) {
+          0, 0, root, -1, [](int) { return true; },
+          [&](int, std::span<const int> far) {
             work.expansions += static_cast<int>((far.size() + 7) / 8 * 8);
           },
-          [&](int leaf, const std::vector<int>& near) {
+          [&](int leaf, std::span<const int> near) {
             for (int k : near) work.pairs += cells_.leaf_points(leaf).size() * cells_.leaf_points(k).size();
           },
-          [](int, int, const std::vector<int>&) {});
+          [](int, int, std::span<const int>) {});
   return work;
 }
 

@@ -11,6 +11,7 @@
 /// and the shape only. Source: Barnes and Hut, Nature 324 (1986) 446; Dehnen, J. Comput. Phys. 179 (2002) 27.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "forces/cells.hpp"
@@ -70,7 +71,7 @@ class CoulombTree {
   void move_down(Threads threads);
   Interactions local_expansions(Threads threads);
   Interactions barnes_hut(Threads threads);
-  void act_near(int leaf, const std::vector<int>& near);
+  void act_near(int leaf, std::span<const int> near);
   CellPoints leaf_cell(int leaf) const;
   bool wanted(int cell) const { return wanted_[static_cast<std::size_t>(cell)]; }
 

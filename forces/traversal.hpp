@@ -7,6 +7,8 @@
 /// whoever works on a target needs nothing from other targets, and the sums have one order on any number of
 /// threads.
 
+#include <algorithm>
+#include <span>
 #include <vector>
 
 #include "forces/cells.hpp"
@@ -15,62 +17,79 @@ namespace treejet {
 
 class Traversal {
  public:
-  Traversal(const Cells& cells, double opening) : cells_(cells), opening2_(opening * opening) {}
+  Traversal(const Cells& cells, double opening)
+      : cells_(cells), opening2_(opening * opening), lists_(static_cast<std::size_t>(cells.levels())) {}
 
   /// Walks the targets below `cell` of `level`, itself included, whose inherited cells are `candidate` (cells
   /// of the same level by their place in it). Calls far(id of target, ids of sources) for each, near(leaf,
   /// leaves) for leaves, and below(level, cell, candidates) instead of walking on at level `stop`. wanted(id)
-  /// says whether a target cell is to be walked at all.
+  /// says whether a target cell is to be walked at all. One walk at a time: the lists are kept.
   template <class Wanted, class Far, class Near, class Below>
-  void walk(int level, int cell, const std::vector<int>& candidate, int stop, Wanted&& wanted, Far&& far,
-            Near&& near, Below&& below) const {
+  void walk(int level, int cell, std::span<const int> candidate, int stop, Wanted&& wanted, Far&& far,
+            Near&& near, Below&& below) {
     if (level == stop) return below(level, cell, candidate);
-    std::vector<int> far_cells, near_cells;
-    part(level, cell, candidate, far_cells, near_cells);
-    far(cells_.level(level).first + cell, far_cells);
-    if (level == cells_.levels() - 1) return near(cell, near_cells);
+    Lists& lists = lists_[static_cast<std::size_t>(level)];
+    part(level, cell, candidate, lists);
+    far(cells_.level(level).first + cell, lists.far());
+    if (level == cells_.levels() - 1) return near(cell, lists.near());
 
     const CellRange next = cells_.level(level + 1);
-    const std::vector<int> opened = children(near_cells, next.last - next.first);
+    const std::span<const int> opened = lists.opened(next.last - next.first);
     for (int child = 2 * cell; child < std::min(next.last - next.first, 2 * cell + 2); ++child)
       if (wanted(next.first + child)) walk(level + 1, child, opened, stop, wanted, far, near, below);
   }
 
  private:
-  void part(int level, int cell, const std::vector<int>& candidate, std::vector<int>& far_cells,
-            std::vector<int>& near_cells) const {
-    far_cells.resize(candidate.size());
-    near_cells.resize(candidate.size());
-    const int first = cells_.level(level).first;
+  /// The lists of one target, in arrays that only grow.
+  class Lists {
+   public:
+    void start(std::size_t most) {
+      if (far_.size() < most) {
+        far_.resize(most);
+        near_.resize(most);
+        opened_.resize(2 * most);
+      }
+      far_count_ = near_count_ = 0;
+    }
+    void add(int id, int k, bool is_far) {
+      far_[far_count_] = id;
+      near_[near_count_] = k;
+      far_count_ += is_far;
+      near_count_ += !is_far;
+    }
+    std::span<const int> far() const { return {far_.data(), far_count_}; }
+    std::span<const int> near() const { return {near_.data(), near_count_}; }
+    /// The children of the near cells, of which the next level has `count`.
+    std::span<const int> opened(int count) {
+      std::size_t all = 0;
+      for (int k : near()) {
+        opened_[all++] = 2 * k;
+        opened_[all] = 2 * k + 1;
+        all += 2 * k + 1 < count;
+      }
+      return {opened_.data(), all};
+    }
+
+   private:
+    std::vector<int> far_, near_, opened_;
+    std::size_t far_count_ = 0, near_count_ = 0;
+  };
+
+  void part(int level, int cell, std::span<const int> candidate, Lists& lists) const {
+    const int first = cells_.level(level).first, own = first + cell;
     const double *cx = cells_.centre(0), *cy = cells_.centre(1), *cz = cells_.centre(2), *r = cells_.radius();
-    const int own = first + cell;
     const double x = cx[own], y = cy[own], z = cz[own], radius = r[own];
-    std::size_t far_count = 0, near_count = 0;
+    lists.start(candidate.size());
     for (int k : candidate) {
       const int id = first + k;
       const double dx = cx[id] - x, dy = cy[id] - y, dz = cz[id] - z, size = r[id] + radius;
-      const bool far = size * size < opening2_ * (dx * dx + dy * dy + dz * dz);
-      far_cells[far_count] = id;
-      near_cells[near_count] = k;
-      far_count += far;
-      near_count += !far;
+      lists.add(id, k, size * size < opening2_ * (dx * dx + dy * dy + dz * dz));
     }
-    far_cells.resize(far_count);
-    near_cells.resize(near_count);
-  }
-
-  static std::vector<int> children(const std::vector<int>& cells, int count) {
-    std::vector<int> all;
-    all.reserve(2 * cells.size());
-    for (int k : cells) {
-      all.push_back(2 * k);
-      if (2 * k + 1 < count) all.push_back(2 * k + 1);
-    }
-    return all;
   }
 
   const Cells& cells_;
   double opening2_;
+  std::vector<Lists> lists_;  ///< of each level
 };
 
 }  // namespace treejet
