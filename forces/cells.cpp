@@ -22,7 +22,7 @@ Rows Cells::leaf_points(int k) const {
 void Cells::enclose(const double* const* r, const double* q, Threads threads) {
   for (int l = levels() - 1; l >= 0; --l) {
     const CellRange cells = level(l);
-    for_each_block(threads, {0, cells.last - cells.first}, 256, [&](Rows rows) {
+    for_each_block(threads, {0, cells.last - cells.first}, 512, [&](Rows rows) {
       for (int k = rows.first; k < rows.last; ++k) {
         if (l == levels() - 1)
           weigh(r, q, k);

@@ -20,7 +20,8 @@ int padded(int terms) {
   return (terms + 7) / 8 * 8;
 }
 
-constexpr int cells_a_task = 64;
+/// Cells a thread takes at once: leaves with all their work, and cells only moved up or down a level.
+constexpr int leaves_a_task = 64, cells_a_task = 512;
 
 }  // namespace
 
@@ -75,7 +76,7 @@ CellPoints CoulombTree::leaf_cell(int leaf) const {
 void CoulombTree::move_up(Threads threads) {
   const int bottom = cells_.levels() - 1;
   const CellRange leaves = cells_.level(bottom);
-  for_each_block(threads, {0, cells_.leaves()}, cells_a_task, [&](Rows rows) {
+  for_each_block(threads, {0, cells_.leaves()}, leaves_a_task, [&](Rows rows) {
     for (int k = rows.first; k < rows.last; ++k) kernels_->p2m(expansions_, leaves.first + k, leaf_cell(k));
   });
   for (int l = bottom - 1; l >= 0; --l) {
@@ -128,7 +129,7 @@ Interactions CoulombTree::evaluate(const std::vector<int>& leaves, Rows rows, co
     for (int leaf : leaves) wanted_[index(cells_.level(l).first + (leaf >> (cells_.levels() - 1 - l)))] = 1;
 
   const Interactions done = shape_.local ? local_expansions(threads) : barnes_hut(threads);
-  for_each_block(threads, {0, static_cast<int>(leaves.size())}, cells_a_task, [&](Rows some) {
+  for_each_block(threads, {0, static_cast<int>(leaves.size())}, leaves_a_task, [&](Rows some) {
     for (int n = some.first; n < some.last; ++n) {
       const int leaf = leaves[index(n)];
       const CellPoints points = leaf_cell(leaf);
