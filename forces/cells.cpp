@@ -19,29 +19,29 @@ Rows Cells::leaf_points(int k) const {
   return {k * leaf_, std::min(points_, (k + 1) * leaf_)};
 }
 
-void Cells::enclose(const double* const* r, const double* q, Threads threads) {
+void Cells::enclose(const CellPoints& points, Reach reach, Threads threads) {
   for (int l = levels() - 1; l >= 0; --l) {
     const CellRange cells = level(l);
     for_each_block(threads, {0, cells.last - cells.first}, 512, [&](Rows rows) {
       for (int k = rows.first; k < rows.last; ++k) {
         if (l == levels() - 1)
-          weigh(r, q, k);
+          weigh(points, k);
         else
           weigh_children(l, k);
-        measure(r, l, k);
+        measure(points, reach, l, k);
       }
     });
   }
 }
 
-void Cells::weigh(const double* const* r, const double* q, int leaf) {
+void Cells::weigh(const CellPoints& all, int leaf) {
   const Rows points = leaf_points(leaf);
   double sum[3] = {}, mean[3] = {}, weight = 0;
   for (int i = points.first; i < points.last; ++i) {
-    weight += std::abs(q[i]);
+    weight += std::abs(all.q[i]);
     for (int e = 0; e < 3; ++e) {
-      sum[e] += std::abs(q[i]) * r[e][i];
-      mean[e] += r[e][i];
+      sum[e] += std::abs(all.q[i]) * all.r[e][i];
+      mean[e] += all.r[e][i];
     }
   }
   const std::size_t cell = index(level(levels() - 1).first + leaf);
@@ -61,7 +61,7 @@ void Cells::weigh_children(int l, int cell) {
 
 /// Exact for cells of up to 8 leaves; above, from the balls of the children, which costs no pass over the
 /// points and little tightness.
-void Cells::measure(const double* const* r, int l, int cell) {
+void Cells::measure(const CellPoints& points, Reach reach, int l, int cell) {
   const std::size_t id = index(level(l).first + cell);
   const double x = centre_[0][id], y = centre_[1][id], z = centre_[2][id];
   const int below = levels() - 1 - l;
@@ -76,15 +76,11 @@ void Cells::measure(const double* const* r, int l, int cell) {
     radius_[id] = radius;
     return;
   }
-  const int first = (cell << below) * leaf_, last = std::min(points_, ((cell + 1) << below) * leaf_);
-  double largest = 0;
-#pragma omp simd reduction(max : largest)
-  for (int i = first; i < last; ++i) {
-    const double dx = r[0][i] - x, dy = r[1][i] - y, dz = r[2][i] - z;
-    const double d2 = dx * dx + dy * dy + dz * dz;
-    largest = d2 > largest ? d2 : largest;
-  }
-  radius_[id] = std::sqrt(largest);
+  CellPoints own = points;
+  own.first = (cell << below) * leaf_;
+  own.count = std::min(points_, ((cell + 1) << below) * leaf_) - own.first;
+  const double centre[3] = {x, y, z};
+  radius_[id] = reach(own, centre);
 }
 
 }  // namespace treejet

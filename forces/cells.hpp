@@ -34,14 +34,16 @@ class Cells {
   const double* centre(int e) const { return centre_[e].data(); }
   const double* radius() const { return radius_.data(); }
 
-  /// Centres and radii for points r with charges q, in this tree's order.
-  void enclose(const double* const* r, const double* q, Threads threads);
+  /// Centres and radii for points in this tree's order; `reach(points, centre)` is their largest distance
+  /// from it.
+  using Reach = double (*)(const CellPoints& points, const double* centre);
+  void enclose(const CellPoints& points, Reach reach, Threads threads);
 
  private:
   static std::size_t index(int l) { return static_cast<std::size_t>(l); }
-  void weigh(const double* const* r, const double* q, int leaf);
+  void weigh(const CellPoints& points, int leaf);
   void weigh_children(int level, int cell);
-  void measure(const double* const* r, int level, int cell);
+  void measure(const CellPoints& points, Reach reach, int level, int cell);
 
   int points_ = 0, leaf_ = 0;
   std::vector<int> first_;  ///< of each level, and the end

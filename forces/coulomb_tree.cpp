@@ -35,8 +35,8 @@ void CoulombTree::arrange(const PointCharges<3>& points, const TreeShape& shape,
     order_ = space_order(points.r.data(), points.n, shape.leaf, shape.block);
   shape_ = shape;
   copy_points(points, threads);
-  const double* const r[3] = {r_[0].data(), r_[1].data(), r_[2].data()};
-  cells_.enclose(r, q_.data(), threads);
+  cells_.enclose({{r_[0].data(), r_[1].data(), r_[2].data()}, q_.data(), 0, points.n}, kernels_->reach,
+                 threads);
   expand(shape.order, threads);
 }
 

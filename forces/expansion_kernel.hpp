@@ -14,6 +14,24 @@ struct ExpansionKernel {
   using Terms = WideSeries<Isa>;
   static constexpr double nothing[PackedPlaces::longest] = {};
 
+  /// The largest distance of points from a centre.
+  static double reach(const CellPoints& points, const double* centre) {
+    Pack largest{};
+    for (int k = 0; k < points.count; k += lanes) {
+      const int first = points.first + k, left = points.count - k;
+      Pack d2{};
+      for (int e = 0; e < 3; ++e) {
+        const Pack d = load_first<double, lanes>(points.r[e] + first, left) - centre[e];
+        d2 += d * d;
+      }
+      if (left < lanes) d2 = count_from<lanes>(0) < left ? d2 : Pack{};
+      largest = d2 > largest ? d2 : largest;
+    }
+    double d2 = largest[0];
+    for (int l = 1; l < lanes; ++l) d2 = largest[l] > d2 ? largest[l] : d2;
+    return __builtin_sqrt(d2);
+  }
+
   /// M of one cell from its points.
   static void p2m(const Expansions& x, int cell, const CellPoints& points) {
     Pack P[2 * plane], M[2 * plane];
@@ -75,14 +93,15 @@ struct ExpansionKernel {
     Terms::clear(p, 2, T);
     Terms::frame(p, D);
     for (int k = 0; k < count; k += lanes) {
-      double R[3][lanes];
+      int cell[lanes];
       const double* terms[lanes];
       for (int l = 0; l < lanes; ++l) {
-        const int cell = source[k + l < count ? k + l : k];
-        terms[l] = k + l < count ? x.moments + static_cast<long>(cell) * x.moment_stride : nothing;
-        for (int e = 0; e < 3; ++e) R[e][l] = x.centre[e][target] - x.centre[e][cell];
+        cell[l] = source[k + l < count ? k + l : k];
+        terms[l] = k + l < count ? x.moments + static_cast<long>(cell[l]) * x.moment_stride : nothing;
       }
-      Terms::derivatives(p, in_lanes(R[0]), in_lanes(R[1]), in_lanes(R[2]), D);
+      Pack R[3];
+      for (int e = 0; e < 3; ++e) R[e] = x.centre[e][target] - Isa::pick(x.centre[e], cell);
+      Terms::derivatives(p, R[0], R[1], R[2], D);
       Terms::gather(p - 1, terms, S);
       Contraction<Isa>::run(p, S, D, T);
     }

@@ -26,6 +26,9 @@ struct Avx2 {
 
   static Pack over_root(Pack x) { return 1 / _mm256_sqrt_pd(x); }
 
+  /// The values p[k] for `lanes` places k.
+  static Pack pick(const double* p, const int* k) { return Pack{p[k[0]], p[k[1]], p[k[2]], p[k[3]]}; }
+
   /// Row l, lane k becomes row k, lane l.
   static void transpose(Pack (&row)[4]) {
     const Pack a = _mm256_unpacklo_pd(row[0], row[1]), b = _mm256_unpackhi_pd(row[0], row[1]);
@@ -42,6 +45,7 @@ struct Avx2 {
 const WideKernels wide_avx2 = {direct<Avx2, 1>,
                                direct<Avx2, 3>,
                                p2p<Avx2>,
+                               ExpansionKernel<Avx2>::reach,
                                ExpansionKernel<Avx2>::p2m,
                                ExpansionKernel<Avx2>::m2m,
                                ExpansionKernel<Avx2>::m2l,

@@ -27,6 +27,12 @@ struct Avx512 {
     return y + y * e * (1. / 2 + e * (3. / 8 + e * (5. / 16)));
   }
 
+  /// The values p[k] for `lanes` places k.
+  static Pack pick(const double* p, const int* k) {
+    return _mm512_mask_i32gather_pd(Pack{}, 0xff, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(k)), p,
+                                    8);
+  }
+
   /// Row l, lane k becomes row k, lane l: pairs, then quarters, then halves of registers.
   static void transpose(Pack (&row)[8]) {
     const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
@@ -53,6 +59,7 @@ struct Avx512 {
 const WideKernels wide_avx512 = {direct<Avx512, 1>,
                                  direct<Avx512, 3>,
                                  p2p<Avx512>,
+                                 ExpansionKernel<Avx512>::reach,
                                  ExpansionKernel<Avx512>::p2m,
                                  ExpansionKernel<Avx512>::m2m,
                                  ExpansionKernel<Avx512>::m2l,

@@ -20,6 +20,9 @@ struct WideKernels {
   /// The near field of the points of a cell, to arrays in tree order.
   void (*p2p)(const CellPoints& target, const CellRange* source, int count, double* const* field);
 
+  /// The largest distance of points from a centre.
+  double (*reach)(const CellPoints&, const double* centre);
+
   /// The operators of multipole.hpp on cells (expansion_kernel.hpp).
   void (*p2m)(const Expansions&, int cell, const CellPoints&);
   void (*m2m)(const Expansions&, CellRange parents, CellRange children);

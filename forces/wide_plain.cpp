@@ -16,6 +16,9 @@ struct Plain {
 
   static Pack root(Pack x) { return Pack{__builtin_sqrt(x[0]), __builtin_sqrt(x[1])}; }
 
+  /// The values p[k] for `lanes` places k.
+  static Pack pick(const double* p, const int* k) { return Pack{p[k[0]], p[k[1]]}; }
+
   /// Row l, lane k becomes row k, lane l.
   static void transpose(Pack (&row)[2]) {
     const Pack first = {row[0][0], row[1][0]}, second = {row[0][1], row[1][1]};
@@ -29,6 +32,7 @@ struct Plain {
 const WideKernels wide_plain = {direct<Plain, 1>,
                                 direct<Plain, 3>,
                                 p2p<Plain>,
+                                ExpansionKernel<Plain>::reach,
                                 ExpansionKernel<Plain>::p2m,
                                 ExpansionKernel<Plain>::m2m,
                                 ExpansionKernel<Plain>::m2l,

@@ -45,8 +45,8 @@ TEST_CASE("Every pair of points is near or far exactly once") {
   for (int n : {1, 31, 32, 33, 100, 1000, 1025}) {
     const PointSet set = random_cloud(n);
     Cells cells(n, 16);
-    const double* const r[3] = {set.r[0].data(), set.r[1].data(), set.r[2].data()};
-    cells.enclose(r, set.q.data(), {1});
+    cells.enclose({{set.r[0].data(), set.r[1].data(), set.r[2].data()}, set.q.data(), 0, n},
+                  wide_kernels(default_path()).reach, {1});
     std::vector<int> points_of_cell(static_cast<std::size_t>(cells.size()));
     for (int l = 0; l < cells.levels(); ++l)
       for (int leaf = 0; leaf < cells.leaves(); ++leaf) {
