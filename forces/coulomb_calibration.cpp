@@ -10,6 +10,8 @@ namespace {
 
 constexpr int sampled_points = 1024;
 constexpr double margin = 1.25;
+/// Below this accuracy a near field in single precision is not tried.
+constexpr double finest_single = 3e-5;
 /// From wide to narrow in steps of 7 %: the error is a staircase of them, since whole shells of leaves change
 /// from far to near.
 constexpr double widest_opening = 0.8, narrowest_opening = 0.05, step = 0.93;
@@ -74,7 +76,8 @@ double price(const Interactions& work, const TreeShape& shape, int points, Vecto
   const double point = 40 + 1.25 * p * p;  // P2M, L2P, copies
   const double leaf = 2 * p * p * p;       // M2M and L2L
   const double sort = shape.block == 0 ? 0 : 10 + 150.0 / shape.block;
-  return static_cast<double>(work.pairs) + expansion * static_cast<double>(work.expansions) +
+  const double pair = shape.single ? 0.5 : 1;
+  return pair * static_cast<double>(work.pairs) + expansion * static_cast<double>(work.expansions) +
          (point + sort) * n + leaf * n / shape.leaf;
 }
 
@@ -164,10 +167,14 @@ CoulombChoice coulomb_choice(const PointCharges<3>& points, const CoulombRequest
 
   Search search{points, request, path, tree, threads};
   const int usual = shape.order;
-  if (request.order)
-    search.try_orders(shape, {usual}, widest_opening);
-  else
-    search.try_orders(shape, {usual, usual + 1, usual - 1, usual + 2}, widest_opening);
+  for (bool single : {true, false}) {
+    if (single && request.accuracy < finest_single) continue;
+    shape.single = single;
+    if (request.order)
+      search.try_orders(shape, {usual}, widest_opening);
+    else
+      search.try_orders(shape, {usual, usual + 1, usual - 1, usual + 2}, widest_opening);
+  }
   if (!request.leaf && !search.best.direct) {
     const TreeShape found = search.best.shape;
     for (int leaf : {16, 64}) {

@@ -35,6 +35,9 @@ void CoulombTree::arrange(const PointCharges<3>& points, const TreeShape& shape,
     order_ = space_order(points.r.data(), points.n, shape.leaf, shape.block);
   shape_ = shape;
   copy_points(points, threads);
+  charge_unit_ = 0;
+  for (double q : q_) charge_unit_ = std::max(charge_unit_, std::abs(q));
+  if (!(charge_unit_ > 0)) charge_unit_ = 1;
   cells_.enclose({{r_[0].data(), r_[1].data(), r_[2].data()}, q_.data(), 0, points.n}, kernels_->reach,
                  threads);
   expand(shape.order, threads);
@@ -171,7 +174,14 @@ void CoulombTree::act_near(int leaf, std::span<const int> near) {
       sources.push_back({rows.first, rows.last});
   }
   double* const E[3] = {field_[0].data(), field_[1].data(), field_[2].data()};
-  kernels_->p2p(leaf_cell(leaf), sources.data(), static_cast<int>(sources.size()), E);
+  const CellPoints target = leaf_cell(leaf);
+  const int count = static_cast<int>(sources.size());
+  if (!shape_.single) return kernels_->p2p(target, sources.data(), count, E);
+  const int cell = cells_.level(cells_.levels() - 1).first + leaf;
+  NearUnits unit = {{}, cells_.radius()[cell], charge_unit_};
+  for (int e = 0; e < 3; ++e) unit.centre[e] = cells_.centre(e)[cell];
+  if (!(unit.length > 0)) unit.length = 1;
+  kernels_->p2p_single(target, sources.data(), count, unit, E);
 }
 
 Interactions CoulombTree::local_expansions(Threads threads) {

@@ -25,6 +25,7 @@ struct TreeShape {
   double opening = 0.4;  ///< far if r_A + r_B < opening * distance
   int leaf = 32;         ///< points of a leaf, a multiple of 16
   int block = 0;         ///< 0: the order of the chain; else space_order by blocks of that many points
+  bool single = false;   ///< near field in single precision
   bool local = true;     ///< local expansions; false: Barnes-Hut
 };
 
@@ -82,6 +83,7 @@ class CoulombTree {
   std::vector<int> order_;
   std::vector<double> r_[3], q_, field_[3], moments_, locals_;
   std::vector<char> wanted_;
+  double charge_unit_ = 1;  ///< largest |q|
 };
 
 }  // namespace treejet

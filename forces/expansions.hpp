@@ -28,4 +28,10 @@ struct CellPoints {
   int first, count;
 };
 
+/// What positions and charges are measured in for the near field in single precision.
+struct NearUnits {
+  double centre[3];
+  double length, charge;
+};
+
 }  // namespace treejet

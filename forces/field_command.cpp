@@ -60,7 +60,7 @@ std::string method(const CoulombReport& report) {
 std::string object(const CoulombReport& report, int n, const Times& times, const FieldError* error) {
   std::string text = fmt::format(
       R"({{"n":{},"method":"{}","reason":"{}","vector_path":"{}","order":{},"opening":{:.4g},"leaf":{},"tree":"{}",)"
-      R"("block":{},"accuracy_expected":{:.3g},"coincident":{},"seconds":{:.6g},"seconds_choose":{:.6g},)"
+      R"("block":{},"near_field":"{}","accuracy_expected":{:.3g},"coincident":{},"seconds":{:.6g},"seconds_choose":{:.6g},)"
       R"("seconds_arrange":{:.6g},"seconds_evaluate":{:.6g},"ns_per_point":{:.4g},"interactions":{},)"
       R"("pairs":{},"expansions":{})",
       n, method(report), report.reason, vector_path(), report.direct ? 0 : report.shape.order,
@@ -68,8 +68,8 @@ std::string object(const CoulombReport& report, int n, const Times& times, const
       report.direct            ? "none"
       : report.shape.block > 0 ? "space"
                                : "chain",
-      report.shape.block, report.expected_error, report.coincident, times.moved(), times.choose,
-      times.arrange, times.evaluate, 1e9 * times.moved() / n,
+      report.shape.block, report.shape.single ? "single" : "double", report.expected_error, report.coincident,
+      times.moved(), times.choose, times.arrange, times.evaluate, 1e9 * times.moved() / n,
       report.interactions.pairs + report.interactions.expansions, report.interactions.pairs,
       report.interactions.expansions);
   if (error) {
@@ -89,10 +89,10 @@ std::string lines(const CoulombReport& report, int n, const Times& times, const 
       fmt::format("{} points, {} ({}), vectors: {}\n", n, method(report), report.reason, vector_path());
   if (!report.direct)
     text += fmt::format(
-        "order {}, opening {:.3g}, leaf {}, {}, expected error {:.2g}\n", report.shape.order,
+        "order {}, opening {:.3g}, leaf {}, {}, near field {}, expected error {:.2g}\n", report.shape.order,
         report.shape.opening, report.shape.leaf,
         report.shape.block > 0 ? fmt::format("space by blocks of {}", report.shape.block) : "chain",
-        report.expected_error);
+        report.shape.single ? "single" : "double", report.expected_error);
   if (report.coincident > 0)
     text += fmt::format("{} points share their place: pairs left out\n", report.coincident);
   text += fmt::format("{} pairs, {} expansions\n", report.interactions.pairs, report.interactions.expansions);

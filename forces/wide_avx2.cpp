@@ -3,6 +3,7 @@
 
 #include "forces/direct_kernel.hpp"
 #include "forces/expansion_kernel.hpp"
+#include "forces/single_kernel.hpp"
 #include "forces/wide_kernels.hpp"
 
 namespace treejet {
@@ -22,6 +23,13 @@ struct Avx2 {
     const Pack y = _mm256_cvtps_pd(start), y2 = y * y;
     const Pack e = 1 - d2 * y2;
     return (q * y) * y2 * (1 + e * (3. / 2 + e * (15. / 8 + e * (35. / 16 + e * (315. / 128)))));
+  }
+
+  /// The same in single precision.
+  static Wide<float, 8> over_cube(float q, Wide<float, 8> d2) {
+    const Wide<float, 8> y = _mm256_rsqrt_ps(d2), y2 = y * y;
+    const Wide<float, 8> e = 1.0f - d2 * y2;
+    return (q * y) * y2 * (1.0f + e * (1.5f + e * 1.875f));
   }
 
   static Pack over_root(Pack x) { return 1 / _mm256_sqrt_pd(x); }
@@ -45,6 +53,7 @@ struct Avx2 {
 const WideKernels wide_avx2 = {direct<Avx2, 1>,
                                direct<Avx2, 3>,
                                p2p<Avx2>,
+                               p2p_single<Avx2>,
                                ExpansionKernel<Avx2>::reach,
                                ExpansionKernel<Avx2>::p2m,
                                ExpansionKernel<Avx2>::m2m,

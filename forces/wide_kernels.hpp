@@ -20,6 +20,10 @@ struct WideKernels {
   /// The near field of the points of a cell, to arrays in tree order.
   void (*p2p)(const CellPoints& target, const CellRange* source, int count, double* const* field);
 
+  /// The same in single precision (single_kernel.hpp).
+  void (*p2p_single)(const CellPoints& target, const CellRange* source, int count, const NearUnits& unit,
+                     double* const* field);
+
   /// The largest distance of points from a centre.
   double (*reach)(const CellPoints&, const double* centre);
 

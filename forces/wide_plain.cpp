@@ -1,6 +1,7 @@
 // The wide kernels for any processor, in registers of two doubles (SSE2, NEON, ...).
 #include "forces/direct_kernel.hpp"
 #include "forces/expansion_kernel.hpp"
+#include "forces/single_kernel.hpp"
 #include "forces/wide_kernels.hpp"
 
 namespace treejet {
@@ -11,6 +12,12 @@ struct Plain {
   using Pack = Wide<double, lanes>;
 
   static Pack over_cube(double q, Pack d2) { return q / (d2 * root(d2)); }
+
+  static Wide<float, 4> over_cube(float q, Wide<float, 4> d2) {
+    Wide<float, 4> cube;
+    for (int l = 0; l < 4; ++l) cube[l] = d2[l] * __builtin_sqrtf(d2[l]);
+    return q / cube;
+  }
 
   static Pack over_root(Pack x) { return 1 / root(x); }
 
@@ -32,6 +39,7 @@ struct Plain {
 const WideKernels wide_plain = {direct<Plain, 1>,
                                 direct<Plain, 3>,
                                 p2p<Plain>,
+                                p2p_single<Plain>,
                                 ExpansionKernel<Plain>::reach,
                                 ExpansionKernel<Plain>::p2m,
                                 ExpansionKernel<Plain>::m2m,

@@ -90,12 +90,12 @@ TEST_CASE("The error falls with the order and with the opening, with and without
       CAPTURE(local, block);
       double last = 1;
       for (int order : {2, 4, 6, 8}) {
-        const double error = relative_l2_error(tree_field(set, {order, 0.5, 32, block, local}), exact);
+        const double error = relative_l2_error(tree_field(set, {order, 0.5, 32, block, false, local}), exact);
         CHECK(error < last / 3);  // two more orders at opening 1/2: a factor 4, less the growth of the terms
         last = error;
       }
-      CHECK(relative_l2_error(tree_field(set, {4, 0.25, 32, block, local}), exact) <
-            relative_l2_error(tree_field(set, {4, 0.5, 32, block, local}), exact) / 4);
+      CHECK(relative_l2_error(tree_field(set, {4, 0.25, 32, block, false, local}), exact) <
+            relative_l2_error(tree_field(set, {4, 0.5, 32, block, false, local}), exact) / 4);
     }
 }
 

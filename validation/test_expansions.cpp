@@ -180,6 +180,34 @@ TEST_CASE("Every wide operator is the plain one, to round-off") {
   });
 }
 
+TEST_CASE("The near field of a cell in single precision is that of the rounded places") {
+  on_every_path([&](const WideKernels& kernels) {
+    for (int size : {16, 21, 32, 48, 64}) {
+      Cells cells(3, 12, size);
+      std::vector<double> single[3], twice[3];
+      for (auto& e : single) e.assign(cells.q.size(), -77.0);
+      for (auto& e : twice) e.assign(cells.q.size(), -77.0);
+      double* const S[3] = {single[0].data(), single[1].data(), single[2].data()};
+      double* const E[3] = {twice[0].data(), twice[1].data(), twice[2].data()};
+      const CellRange sources[] = {{0, 7}, {9, 12 * size}};
+      const Vector3 centre = cells.at(1);
+      kernels.p2p(cells.points(size, size), sources, 2, E);
+      kernels.p2p_single(cells.points(size, size), sources, 2, {{centre[0], centre[1], centre[2]}, 0.3, 0.1},
+                         S);
+      double size2 = 0, error2 = 0;
+      for (std::size_t i = 0; i < cells.q.size(); ++i)
+        for (int e = 0; e < 3; ++e) {
+          size2 += twice[e][i] * twice[e][i];
+          error2 += std::pow(single[e][i] - twice[e][i], 2);
+        }
+      CHECK(std::sqrt(error2 / size2) <
+            3e-5);  // 1e-7 of 20 cells' lengths, over neighbours at a tenth of one
+      CHECK(single[0][static_cast<std::size_t>(size) - 1] == -77.0);
+      CHECK(single[0][static_cast<std::size_t>(2 * size)] == -77.0);
+    }
+  });
+}
+
 TEST_CASE("The near field of a cell is the direct sum over its ranges of sources") {
   on_every_path([&](const WideKernels& kernels) {
     Cells cells(3, 3, 21);
