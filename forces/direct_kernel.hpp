@@ -8,6 +8,7 @@
 /// own points can be the target itself; the pair (i, i) is masked there, by index: distinct points at one
 /// place give 0 * infinity, hence a field that is not finite. `Isa` brings q d2^(-3/2) (wide_*.cpp).
 
+#include "forces/expansions.hpp"
 #include "forces/wide.hpp"
 #include "parallel/rows.hpp"
 
@@ -19,6 +20,35 @@ struct DirectBlock {
   static constexpr int lanes = Isa::lanes, groups = Isa::groups, size = lanes * groups;
   using Pack = Wide<double, lanes>;
   Pack r[D][groups], e[D][groups];
+
+  /// Targets first.. of n.
+  DirectBlock(const double* const* target, int first, int n) {
+    for (int k = 0; k < D; ++k)
+      for (int g = 0; g < groups; ++g) {
+        const int at = first + g * lanes;
+        r[k][g] = load_first<double, lanes>(target[k] + at, n - at);
+        e[k][g] = Pack{};
+      }
+  }
+
+  void store(double* const* field, int first, Rows rows) const {
+    for (int k = 0; k < D; ++k)
+      for (int g = 0; g < groups; ++g) {
+        const int at = first + g * lanes;
+        store_lanes<double, lanes>(field[k] + at, e[k][g], rows.first - at, rows.last - at);
+      }
+  }
+
+  /// Adds the field of the sources first <= j < last, the block itself being `own`.
+  void add_range(const double* const* source, const double* q, Rows range, Rows own) {
+    const int begin = range.first > own.first ? range.first : own.first;
+    const int end = range.last < own.last ? range.last : own.last;
+    const int before = range.last < own.first ? range.last : own.first;
+    const int after = range.first > own.last ? range.first : own.last;
+    for (int j = range.first; j < before; ++j) add<false>(source, q[j], j, 0);
+    for (int j = begin; j < end; ++j) add<true>(source, q[j], j, j - own.first);
+    for (int j = after; j < range.last; ++j) add<false>(source, q[j], j, 0);
+  }
 
   /// Adds the field of source j; `self` is its place in the block if it is one of the targets.
   template <bool own>
@@ -41,24 +71,23 @@ template <class Isa, int D>
 void direct(const double* const* r, const double* q, int n, Rows rows, double* const* field) {
   using Block = DirectBlock<Isa, D>;
   for (int first = rows.first / Block::size * Block::size; first < rows.last; first += Block::size) {
-    Block block;
-    for (int k = 0; k < D; ++k)
-      for (int g = 0; g < Block::groups; ++g) {
-        const int at = first + g * Block::lanes;
-        block.r[k][g] = load_first<double, Block::lanes>(r[k] + at, n - at);
-        block.e[k][g] = Wide<double, Block::lanes>{};
-      }
+    Block block(r, first, n);
+    block.add_range(r, q, {0, n}, {first, n < first + Block::size ? n : first + Block::size});
+    block.store(field, first, rows);
+  }
+}
 
-    const int end = n < first + Block::size ? n : first + Block::size;
-    for (int j = 0; j < first; ++j) block.template add<false>(r, q[j], j, 0);
-    for (int j = first; j < end; ++j) block.template add<true>(r, q[j], j, j - first);
-    for (int j = end; j < n; ++j) block.template add<false>(r, q[j], j, 0);
-
-    for (int k = 0; k < D; ++k)
-      for (int g = 0; g < Block::groups; ++g) {
-        const int at = first + g * Block::lanes;
-        store_lanes<double, Block::lanes>(field[k] + at, block.e[k][g], rows.first - at, rows.last - at);
-      }
+/// The near field of the points of a cell: sources are the points of `count` ranges, in their order.
+template <class Isa>
+void p2p(const CellPoints& target, const CellRange* source, int count, double* const* field) {
+  using Block = DirectBlock<Isa, 3>;
+  const int end = target.first + target.count;
+  for (int first = target.first; first < end; first += Block::size) {
+    Block block(target.r, first, end);
+    const Rows own = {first, end < first + Block::size ? end : first + Block::size};
+    for (int k = 0; k < count; ++k)
+      block.add_range(target.r, target.q, {source[k].first, source[k].last}, own);
+    block.store(field, first, own);
   }
 }
 

@@ -2,6 +2,8 @@
 #include <immintrin.h>
 
 #include "forces/direct_kernel.hpp"
+#include "forces/expansion_kernel.hpp"
+#include "forces/single_kernel.hpp"
 #include "forces/wide_kernels.hpp"
 
 namespace treejet {
@@ -22,10 +24,41 @@ struct Avx2 {
     const Pack e = 1 - d2 * y2;
     return (q * y) * y2 * (1 + e * (3. / 2 + e * (15. / 8 + e * (35. / 16 + e * (315. / 128)))));
   }
+
+  /// The same in single precision.
+  static Wide<float, 8> over_cube(float q, Wide<float, 8> d2) {
+    const Wide<float, 8> y = _mm256_rsqrt_ps(d2), y2 = y * y;
+    const Wide<float, 8> e = 1.0f - d2 * y2;
+    return (q * y) * y2 * (1.0f + e * (1.5f + e * 1.875f));
+  }
+
+  static Pack over_root(Pack x) { return 1 / _mm256_sqrt_pd(x); }
+
+  /// The values p[k] for `lanes` places k.
+  static Pack pick(const double* p, const int* k) { return Pack{p[k[0]], p[k[1]], p[k[2]], p[k[3]]}; }
+
+  /// Row l, lane k becomes row k, lane l.
+  static void transpose(Pack (&row)[4]) {
+    const Pack a = _mm256_unpacklo_pd(row[0], row[1]), b = _mm256_unpackhi_pd(row[0], row[1]);
+    const Pack c = _mm256_unpacklo_pd(row[2], row[3]), d = _mm256_unpackhi_pd(row[2], row[3]);
+    row[0] = _mm256_permute2f128_pd(a, c, 0x20);
+    row[1] = _mm256_permute2f128_pd(b, d, 0x20);
+    row[2] = _mm256_permute2f128_pd(a, c, 0x31);
+    row[3] = _mm256_permute2f128_pd(b, d, 0x31);
+  }
 };
 
 }  // namespace
 
-const WideKernels wide_avx2 = {direct<Avx2, 1>, direct<Avx2, 3>};
+const WideKernels wide_avx2 = {direct<Avx2, 1>,
+                               direct<Avx2, 3>,
+                               p2p<Avx2>,
+                               p2p_single<Avx2>,
+                               ExpansionKernel<Avx2>::reach,
+                               ExpansionKernel<Avx2>::p2m,
+                               ExpansionKernel<Avx2>::m2m,
+                               ExpansionKernel<Avx2>::m2l,
+                               ExpansionKernel<Avx2>::l2l,
+                               ExpansionKernel<Avx2>::l2p};
 
 }  // namespace treejet

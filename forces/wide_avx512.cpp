@@ -3,6 +3,8 @@
 #include <immintrin.h>
 
 #include "forces/direct_kernel.hpp"
+#include "forces/expansion_kernel.hpp"
+#include "forces/single_kernel.hpp"
 #include "forces/wide_kernels.hpp"
 
 namespace treejet {
@@ -19,10 +21,57 @@ struct Avx512 {
     const Pack e = 1 - d2 * y2;
     return (q * y) * y2 * (1 + e * (3. / 2 + e * (15. / 8 + e * (35. / 16))));
   }
+
+  /// The same in single precision: one correction of 14 bits is enough.
+  static Wide<float, 16> over_cube(float q, Wide<float, 16> d2) {
+    const Wide<float, 16> y = _mm512_maskz_rsqrt14_ps(0xffff, d2), y2 = y * y;
+    return (q * y) * y2 * (2.5f - 1.5f * (d2 * y2));
+  }
+
+  static Pack over_root(Pack x) {
+    const Pack y = _mm512_maskz_rsqrt14_pd(0xff, x);
+    const Pack e = 1 - x * y * y;
+    return y + y * e * (1. / 2 + e * (3. / 8 + e * (5. / 16)));
+  }
+
+  /// The values p[k] for `lanes` places k.
+  static Pack pick(const double* p, const int* k) {
+    return _mm512_mask_i32gather_pd(Pack{}, 0xff, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(k)), p,
+                                    8);
+  }
+
+  /// Row l, lane k becomes row k, lane l: pairs, then quarters, then halves of registers.
+  static void transpose(Pack (&row)[8]) {
+    const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
+    const __m512i high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+    Pack pair[8], quarter[8];
+    for (int l = 0; l < 8; l += 2) {
+      pair[l] = _mm512_maskz_unpacklo_pd(0xff, row[l], row[l + 1]);
+      pair[l + 1] = _mm512_maskz_unpackhi_pd(0xff, row[l], row[l + 1]);
+    }
+    for (int l = 0; l < 8; l += 4)
+      for (int k = 0; k < 2; ++k) {
+        quarter[l + k] = _mm512_permutex2var_pd(pair[l + k], low, pair[l + k + 2]);
+        quarter[l + k + 2] = _mm512_permutex2var_pd(pair[l + k], high, pair[l + k + 2]);
+      }
+    for (int k = 0; k < 4; ++k) {
+      row[k] = _mm512_maskz_shuffle_f64x2(0xff, quarter[k], quarter[k + 4], 0x44);
+      row[k + 4] = _mm512_maskz_shuffle_f64x2(0xff, quarter[k], quarter[k + 4], 0xee);
+    }
+  }
 };
 
 }  // namespace
 
-const WideKernels wide_avx512 = {direct<Avx512, 1>, direct<Avx512, 3>};
+const WideKernels wide_avx512 = {direct<Avx512, 1>,
+                                 direct<Avx512, 3>,
+                                 p2p<Avx512>,
+                                 p2p_single<Avx512>,
+                                 ExpansionKernel<Avx512>::reach,
+                                 ExpansionKernel<Avx512>::p2m,
+                                 ExpansionKernel<Avx512>::m2m,
+                                 ExpansionKernel<Avx512>::m2l,
+                                 ExpansionKernel<Avx512>::l2l,
+                                 ExpansionKernel<Avx512>::l2p};
 
 }  // namespace treejet

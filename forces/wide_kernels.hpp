@@ -6,6 +6,7 @@
 /// machine would meet wide code: hence plain pointers in these signatures, and everything behind the table
 /// has internal linkage.
 
+#include "forces/expansions.hpp"
 #include "forces/vector_path.hpp"
 #include "parallel/rows.hpp"
 
@@ -15,6 +16,23 @@ struct WideKernels {
   /// Rows of the field of n charges at D coordinate arrays (coulomb.hpp).
   using Direct = void (*)(const double* const* r, const double* q, int n, Rows rows, double* const* field);
   Direct direct_1d, direct_3d;
+
+  /// The near field of the points of a cell, to arrays in tree order.
+  void (*p2p)(const CellPoints& target, const CellRange* source, int count, double* const* field);
+
+  /// The same in single precision (single_kernel.hpp).
+  void (*p2p_single)(const CellPoints& target, const CellRange* source, int count, const NearUnits& unit,
+                     double* const* field);
+
+  /// The largest distance of points from a centre.
+  double (*reach)(const CellPoints&, const double* centre);
+
+  /// The operators of multipole.hpp on cells (expansion_kernel.hpp).
+  void (*p2m)(const Expansions&, int cell, const CellPoints&);
+  void (*m2m)(const Expansions&, CellRange parents, CellRange children);
+  void (*m2l)(const Expansions&, int target, const int* source, int count);
+  void (*l2l)(const Expansions&, CellRange parents, CellRange children);
+  void (*l2p)(const Expansions&, int cell, const CellPoints&, double* const* field);
 };
 
 /// The kernels of a path that runs here.

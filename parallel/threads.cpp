@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <exception>
 
 #ifdef __SANITIZE_THREAD__
@@ -32,21 +33,21 @@ void take_over(void*) {}
 
 }  // namespace
 
-[[gnu::no_sanitize_thread]] void for_each_block_threaded(Threads threads, Rows rows, int block,
-                                                         const std::function<void(Rows)>& f) {
-  if (rows.size() <= 0) return;
-  const int first_block = rows.first / block, last_block = (rows.last - 1) / block;
-  if (first_block == last_block) return f(rows);
-
+[[gnu::no_sanitize_thread]] void for_each_task(Threads threads, int count,
+                                               const std::function<void(int)>& f) {
+  if (threads.count <= 1 || count <= 1) {
+    for (int k = 0; k < count; ++k) f(k);
+    return;
+  }
   std::exception_ptr failure;
   std::atomic_flag failed = ATOMIC_FLAG_INIT;
   char fork, join;
   hand_over(&fork);
-#pragma omp parallel for num_threads(threads.count) schedule(static)
-  for (int b = first_block; b <= last_block; ++b) {
+#pragma omp parallel for num_threads(threads.count) schedule(dynamic, 1)
+  for (int k = 0; k < count; ++k) {
     take_over(&fork);
     try {
-      f({std::max(rows.first, b * block), std::min(rows.last, (b + 1) * block)});
+      f(k);
     } catch (...) {
       if (!failed.test_and_set()) failure = std::current_exception();
     }
@@ -54,6 +55,18 @@ void take_over(void*) {}
   }
   take_over(&join);
   if (failure) std::rethrow_exception(failure);
+}
+
+void for_each_block_threaded(Threads threads, Rows rows, int block, const std::function<void(Rows)>& f) {
+  if (rows.size() <= 0) return;
+  const int first = rows.first / block, blocks = (rows.last - 1) / block + 1 - first;
+  const int shares = std::min(threads.count, blocks);
+  const auto border = [&](int k) {
+    return (first + static_cast<int>(std::int64_t{blocks} * k / shares)) * block;
+  };
+  for_each_task(threads, shares, [&](int k) {
+    f({std::max(rows.first, border(k)), std::min(rows.last, border(k + 1))});
+  });
 }
 
 int available_cores() {

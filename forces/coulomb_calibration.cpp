@@ -1,0 +1,201 @@
+#include "forces/coulomb_calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace treejet {
+
+namespace {
+
+constexpr int sampled_points = 1024;
+constexpr double margin = 1.25;
+/// Below this accuracy a near field in single precision is not tried.
+constexpr double finest_single = 3e-5;
+/// From wide to narrow in steps of 7 %: the error is a staircase of them, since whole shells of leaves change
+/// from far to near.
+constexpr double widest_opening = 0.8, narrowest_opening = 0.05, step = 0.93;
+
+/// The order that usually costs least; measured on jets and coils.
+int usual_order(double accuracy) {
+  return std::clamp(static_cast<int>(std::lround(-1.35 * std::log10(accuracy))), 3, 13);
+}
+
+CoulombChoice direct_because(const std::string& reason) {
+  CoulombChoice choice;
+  choice.reason = reason;
+  return choice;
+}
+
+}  // namespace
+
+CoulombSample::CoulombSample(int points, CoulombTree& tree, Threads threads)
+    : n_(points), leaves_(tree.sample_leaves(sampled_points / tree.shape().leaf)) {
+  for (auto& values : direct_) values.assign(static_cast<std::size_t>(n_), 0.0);
+  for (auto& values : tried_) values.assign(static_cast<std::size_t>(n_), 0.0);
+  const FieldArrays<3> field = {direct_[0].data(), direct_[1].data(), direct_[2].data()};
+
+  // The size of the whole field, from the tree itself: it need not be exact.
+  tree.evaluate(tree.leaves_of({0, n_}), {0, n_}, field, threads);
+  for (std::size_t i = 0; i < direct_[0].size(); ++i) {
+    const double square =
+        direct_[0][i] * direct_[0][i] + direct_[1][i] * direct_[1][i] + direct_[2][i] * direct_[2][i];
+    if (std::isfinite(square)) mean_square_ += square / n_;
+  }
+  for (int leaf : leaves_) points_of_leaf_.push_back(tree.points_of(leaf));
+  tree.evaluate_directly(leaves_, field, threads);
+}
+
+double CoulombSample::error(CoulombTree& tree, Threads threads) {
+  tree.evaluate(leaves_, {0, n_}, {tried_[0].data(), tried_[1].data(), tried_[2].data()}, threads);
+  double sum = 0, sum_squares = 0, count = 0;
+  for (const auto& points : points_of_leaf_) {
+    double square = 0;
+    for (int k : points) {
+      const auto i = static_cast<std::size_t>(k);
+      double difference2 = 0;
+      for (std::size_t e = 0; e < 3; ++e) difference2 += std::pow(tried_[e][i] - direct_[e][i], 2);
+      if (std::isfinite(difference2)) square += difference2 / static_cast<double>(points.size());
+    }
+    sum += square;
+    sum_squares += square * square;
+    ++count;
+  }
+  if (mean_square_ == 0) return 0;
+  const double mean = sum / count;
+  const double spread = std::sqrt(std::max(0.0, sum_squares / count - mean * mean) / count);
+  return margin * std::sqrt((mean + 2 * spread) / mean_square_);
+}
+
+double price(const Interactions& work, const TreeShape& shape, int points, VectorPath path) {
+  // an M2L of order 2, 3, ..., 14; measured, and so is the rest
+  constexpr double wide[] = {20, 30, 40, 57, 80, 115, 160, 225, 320, 410, 520, 680, 860};
+  constexpr double narrow[] = {15, 20, 30, 43, 70, 97, 125, 185, 256, 330, 416, 530, 672};
+  const double p = shape.order, n = points;
+  const double expansion = (path == VectorPath::avx512 ? wide : narrow)[shape.order - 2];
+  const double point = 40 + 1.25 * p * p;  // P2M, L2P, copies
+  const double leaf = 2 * p * p * p;       // M2M and L2L
+  const double sort = shape.block == 0 ? 0 : 10 + 150.0 / shape.block;
+  const double pair = shape.single ? 0.5 : 1;
+  return pair * static_cast<double>(work.pairs) + expansion * static_cast<double>(work.expansions) +
+         (point + sort) * n + leaf * n / shape.leaf;
+}
+
+int direct_below(double accuracy, VectorPath path) {
+  const double digits = std::clamp(-std::log10(accuracy), 2.0, 12.0);
+  const double wide = 250 * digits * digits / 2;
+  return static_cast<int>(path == VectorPath::avx512 ? wide : 0.7 * wide);
+}
+
+namespace {
+
+/// Chain or space: the order of points with the least work at this shape.
+TreeShape cheapest_order(const PointCharges<3>& points, const CoulombRequest& request, TreeShape shape,
+                         VectorPath path, CoulombTree& tree, Threads threads) {
+  TreeShape best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int block : {0, 16, 4, 1}) {
+    if (request.space && *request.space != (block > 0)) continue;
+    shape.block = block;
+    TreeShape cheap = shape;
+    cheap.order = 2;
+    tree.arrange(points, cheap, threads);
+    const double work = price(tree.count(), shape, points.n, path);
+    if (work < least) {
+      least = work;
+      best = shape;
+    }
+  }
+  return best;
+}
+
+/// The search for the cheapest shape that is accurate enough.
+struct Search {
+  const PointCharges<3>& points;
+  const CoulombRequest& request;
+  VectorPath path;
+  CoulombTree& tree;
+  Threads threads;
+  double least = std::numeric_limits<double>::infinity();
+  CoulombChoice best{};
+
+  /// The widest opening that is accurate enough at each of these orders, from a bit wider than `widest` down.
+  void try_orders(const TreeShape& shape, std::initializer_list<int> orders, double widest) {
+    tree.arrange(points, shape, threads);
+    CoulombSample sample(points.n, tree, threads);
+    for (int order : orders)
+      if (order >= 2 && order <= 14) try_openings(order, sample, widest);
+  }
+
+  void try_openings(int order, CoulombSample& sample, double widest) {
+    for (double opening = request.opening.value_or(widest); opening > narrowest_opening; opening *= step) {
+      tree.reshape(order, opening, threads);
+      const double error = sample.error(tree, threads);
+      ++best.measurements;
+      const bool pinned = request.opening.has_value();
+      if (error <= request.accuracy || (pinned && request.order)) {
+        const Interactions counted = tree.count();
+        if (counted.expansions == 0 && !pinned) return;  // all pairs are near: a direct sum in disguise
+        const double work = price(counted, tree.shape(), points.n, path);
+        if (work < least) {
+          least = work;
+          best.direct = false;
+          best.shape = tree.shape();
+          best.expected_error = error;
+        }
+        return;
+      }
+      if (pinned) return;
+    }
+  }
+};
+
+}  // namespace
+
+CoulombChoice coulomb_choice(const PointCharges<3>& points, const CoulombRequest& request, VectorPath path,
+                             CoulombTree& tree, Threads threads) {
+  const bool automatic = request.method == CoulombMethod::automatic;
+  if (automatic && points.n < direct_below(request.accuracy, path))
+    return direct_because("fewer points than the crossover of the table");
+
+  TreeShape shape;
+  shape.local = request.local_expansions;
+  shape.order = request.order.value_or(usual_order(request.accuracy));
+  shape.opening = request.opening.value_or(0.4);
+  shape.leaf = request.leaf.value_or(32);
+  shape = cheapest_order(points, request, shape, path, tree, threads);
+
+  Search search{points, request, path, tree, threads};
+  const int usual = shape.order;
+  for (bool single : {true, false}) {
+    if (single && request.accuracy < finest_single) continue;
+    shape.single = single;
+    if (request.order)
+      search.try_orders(shape, {usual}, widest_opening);
+    else
+      search.try_orders(shape, {usual, usual + 1, usual - 1, usual + 2}, widest_opening);
+  }
+  if (!request.leaf && !search.best.direct) {
+    const TreeShape found = search.best.shape;
+    for (int leaf : {16, 64}) {
+      shape = found;
+      shape.leaf = leaf;
+      search.try_orders(shape, {found.order}, std::min(widest_opening, found.opening * 1.3));
+    }
+  }
+
+  CoulombChoice& choice = search.best;
+  if (choice.direct) {
+    choice.reason = "no tree is as accurate as asked for";
+  } else if (automatic && search.least > 0.9 * static_cast<double>(points.n) * points.n) {
+    choice.direct = true;
+    choice.reason = "no tree of this accuracy would be faster";
+  } else {
+    choice.reason = choice.expected_error <= request.accuracy ? "cheapest accurate shape"
+                                                              : "pinned: less accurate than asked for";
+    tree.arrange(points, choice.shape, threads);
+  }
+  return choice;
+}
+
+}  // namespace treejet

@@ -1,0 +1,56 @@
+#pragma once
+/// The choice of a tree's shape for given points and a given accuracy.
+///
+/// 1. Below the crossover of a shipped table: direct.
+/// 2. The order of the points, chain or space by blocks of 16, 4 or 1: whichever needs the least work at a
+/// typical
+///    shape, work being counted in a walk of the tree and priced by a shipped table. Where turns of a coil
+///    lie close to one another, the chain's cells overlap and its walk finds many more near pairs.
+/// 3. For a few orders p about the usual one for the accuracy: the widest opening whose measured error is
+/// small
+///    enough. The cheapest of these is taken; if it is not cheaper than the direct sum: direct.
+///
+/// Prices are in units of one direct pair of the same vector path, so they depend little on the machine's
+/// clock.
+
+#include "forces/coulomb_solver.hpp"
+
+namespace treejet {
+
+/// Sampled leaves and the direct field at their points.
+class CoulombSample {
+ public:
+  /// `tree` holds the points, in any shape.
+  CoulombSample(int points, CoulombTree& tree, Threads threads);
+
+  /// Upper estimate of the relative L2 error of the whole field: the mean over the sampled leaves plus two
+  /// standard deviations of that mean, times a margin.
+  double error(CoulombTree& tree, Threads threads);
+
+ private:
+  int n_;
+  double mean_square_ = 0;  ///< of the field over all points
+  std::vector<int> leaves_;
+  std::vector<std::vector<int>> points_of_leaf_;
+  std::vector<double> direct_[3], tried_[3];
+};
+
+struct CoulombChoice {
+  bool direct = true;
+  std::string reason;
+  TreeShape shape;
+  double expected_error = 0;
+  int measurements = 0;
+};
+
+/// Leaves `tree` arranged in the chosen shape.
+CoulombChoice coulomb_choice(const PointCharges<3>& points, const CoulombRequest& request, VectorPath path,
+                             CoulombTree& tree, Threads threads);
+
+/// The number of points below which `auto` sums directly without looking further.
+int direct_below(double accuracy, VectorPath path);
+
+/// The price of an evaluation, in direct pairs.
+double price(const Interactions& work, const TreeShape& shape, int points, VectorPath path);
+
+}  // namespace treejet
