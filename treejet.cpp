@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <iostream>
 
 #include "core/command_line.hpp"
 #include "core/deck.hpp"
@@ -11,6 +12,8 @@
 #include "core/progress.hpp"
 #include "core/version.hpp"
 #include "forces/coulomb.hpp"
+#include "forces/coulomb_request.hpp"
+#include "forces/field_command.hpp"
 #include "forces/scene_description.hpp"
 #include "integrators/choice.hpp"
 #include "integrators/march.hpp"
@@ -43,8 +46,8 @@ void run(const Deck& deck, const Arguments& a) {
   const auto control = step_control(p);
   const auto existing = a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
   Outputs<D> outputs(p, scene.nozzle, scene.collector, {a.out, existing, a.quiet});
-  March<D> march({scene.jet, scene.right_hand_side(), *scheme, *control, scene.nozzle, scene.collector, p.events,
-                  p.tolerance.value_or(0), outputs.watchers()});
+  March<D> march({scene.jet, scene.right_hand_side(), *scheme, *control, scene.nozzle, scene.collector,
+                  p.events, p.tolerance.value_or(0), outputs.watchers()});
   if (!a.quiet) {
     fmt::print("{}\n{}\n{}", version_text(), deck.name, composition(scene.composed, scene.left_out));
     fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p), threads_description(threads));
@@ -67,6 +70,11 @@ void check(const Deck& deck) {
 int main(const Arguments& a) {
   if (a.command == "template") return fmt::print("{}", deck_template()), 0;
   if (a.command == "reference") return fmt::print("{}\n{}", directive_reference(), key_reference()), 0;
+  if (a.command == "field") {
+    const int threads = a.threads > 0 ? a.threads : available_cores();
+    run({a.points, a.field_out, coulomb_request(a.coulomb), threads, a.repeat, a.compare, a.json}, std::cout);
+    return 0;
+  }
   const Deck deck = read_deck(a.deck, a.overrides);
   const bool straight = deck.parameters.system == 1;
   if (a.command == "check") {

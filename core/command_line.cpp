@@ -1,6 +1,7 @@
 #include "core/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <map>
 
 namespace treejet {
 
@@ -26,6 +27,39 @@ void add_deck(CLI::App& command, Arguments& a) {
       ->allow_extra_args(false);
 }
 
+template <class T>
+void add_choice(CLI::App& command, const char* name, T& value, std::map<std::string, T> words,
+                const char* meaning) {
+  command.add_option(name, value, meaning)->transform(CLI::CheckedTransformer(std::move(words)));
+}
+
+void add_field(CLI::App& app, Arguments& a) {
+  auto& field = *app.add_subcommand("field", "Coulomb field of the charges in a table, at the charges");
+  CoulombSetting& c = a.coulomb;
+  field.add_option("POINTS", a.points, "CSV with a header line and columns x, y, z, q")->required();
+  add_choice<CoulombSum>(
+      field, "--coulomb", c.coulomb,
+      {{"direct", CoulombSum::direct}, {"tree", CoulombSum::tree}, {"auto", CoulombSum::automatic}},
+      "how to sum");
+  field.add_option("--accuracy", c.coulomb_accuracy, "relative L2 error of the field")->capture_default_str();
+  field.add_option("--threads", a.threads, "threads (default: all cores)")->check(CLI::Range(1, 4096));
+  field.add_option("--repeat", a.repeat, "evaluate so often, report the best time")
+      ->check(CLI::Range(1, 1000000));
+  field.add_flag("--compare", a.compare, "measure the error against direct summation");
+  field.add_option("--out", a.field_out, "write x,y,z,q,ex,ey,ez to this file");
+  field.add_flag("--json", a.json, "one JSON object instead of text");
+  field.add_option("--order", c.coulomb_order, "pin the order of the expansions");
+  field.add_option("--opening", c.coulomb_opening, "pin the opening");
+  field.add_option("--leaf", c.coulomb_leaf, "pin the points of a leaf");
+  add_choice<TreeOrder>(
+      field, "--tree", c.coulomb_tree,
+      {{"auto", TreeOrder::automatic}, {"chain", TreeOrder::chain}, {"space", TreeOrder::space}},
+      "order of the points in the tree");
+  add_choice<ExpansionKind>(field, "--expansions", c.coulomb_expansions,
+                            {{"local", ExpansionKind::local}, {"none", ExpansionKind::none}},
+                            "local: dual tree; none: Barnes and Hut's");
+}
+
 }  // namespace
 
 CommandLine command_line(int argc, char** argv, const std::string& version_text) {
@@ -45,6 +79,7 @@ CommandLine command_line(int argc, char** argv, const std::string& version_text)
 
   auto& check = *app.add_subcommand("check", "Read a deck and tell what it composes and leaves out, and why");
   add_deck(check, a);
+  add_field(app, a);
   app.add_subcommand("template", "Print a commented deck with every directive");
   app.add_subcommand("reference", "Print the tables of directives and observables (Markdown)");
 

@@ -5,15 +5,22 @@
 #include <string>
 #include <vector>
 
+#include "core/parameters.hpp"
+
 namespace treejet {
 
 struct Arguments {
-  std::string command;  ///< run, check, template, reference
+  std::string command;  ///< run, check, field, template, reference
   std::string deck;
   std::vector<std::string> overrides;
   std::string out = ".";
   int threads = 0;  ///< 0: as many as there are cores
   bool quiet = false, force = false;
+
+  std::string points, field_out;  ///< of the field command
+  CoulombSetting coulomb{.coulomb = CoulombSum::automatic};
+  int repeat = 1;
+  bool compare = false, json = false;
 };
 
 /// The arguments of a command, or, when help, version or an error has been printed, the exit code.

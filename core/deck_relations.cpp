@@ -23,6 +23,7 @@ class Relations {
     time();
     initial_jet();
     perturbation();
+    coulomb_sum();
     fluid();
     output();
   }
@@ -81,6 +82,17 @@ class Relations {
           fmt::format("expected a divisor of initial length ({} cm); did you mean {}{:.10g}?",
                       p_.initial_length, longer, p_.initial_length / (fewer + 1)));
     return false;
+  }
+
+  void coulomb_sum() {
+    const bool tree = p_.coulomb != CoulombSum::direct;
+    error(tree && p_.system == 1, {"coulomb", "system"},
+          "expected coulomb direct in system 1, which has no tree");
+    error(tree && p_.cutoff.has_value(), {"coulomb", "cutoff"},
+          "expected no cutoff: the tree sums over all pairs");
+    for (const char* detail : {"coulomb accuracy", "coulomb order", "coulomb opening", "coulomb leaf",
+                               "coulomb tree", "coulomb expansions"})
+      note(!tree && is_given(detail), detail, "no effect without coulomb tree or coulomb auto");
   }
 
   void perturbation() {

@@ -31,6 +31,11 @@ constexpr Word<Scheme> schemes[] = {
 constexpr Word<EventRule> event_rules[] = {{"located", EventRule::located}, {"step", EventRule::step}};
 constexpr Word<Multirate> multirates[] = {{"auto", Multirate::automatic}, {"no", Multirate::no}};
 constexpr Word<Units> unit_systems[] = {{"cgs", Units::cgs}, {"real", Units::real}};
+constexpr Word<CoulombSum> coulomb_sums[] = {
+    {"direct", CoulombSum::direct}, {"tree", CoulombSum::tree}, {"auto", CoulombSum::automatic}};
+constexpr Word<TreeOrder> tree_orders[] = {
+    {"auto", TreeOrder::automatic}, {"chain", TreeOrder::chain}, {"space", TreeOrder::space}};
+constexpr Word<ExpansionKind> expansions[] = {{"local", ExpansionKind::local}, {"none", ExpansionKind::none}};
 
 std::span<const Word<bool>> words_of(bool) {
   return yes_no;
@@ -46,6 +51,15 @@ std::span<const Word<Multirate>> words_of(Multirate) {
 }
 std::span<const Word<Units>> words_of(Units) {
   return unit_systems;
+}
+std::span<const Word<CoulombSum>> words_of(CoulombSum) {
+  return coulomb_sums;
+}
+std::span<const Word<TreeOrder>> words_of(TreeOrder) {
+  return tree_orders;
+}
+std::span<const Word<ExpansionKind>> words_of(ExpansionKind) {
+  return expansions;
 }
 
 template <class T>

@@ -14,6 +14,10 @@ constexpr Check below_one{"positive and below 1", [](double v) { return v > 0 &&
 constexpr Check one_or_three{"1 (straight jet) or 3 (three dimensions)",
                              [](double v) { return v == 1 || v == 3; }};
 constexpr Check a_count{"from 1 to 100000000", [](double v) { return v >= 1 && v <= 1e8; }};
+constexpr Check an_order{"from 2 to 14", [](double v) { return v >= 2 && v <= 14; }};
+constexpr Check an_opening{"above 0 and at most 0.9", [](double v) { return v > 0 && v <= 0.9; }};
+constexpr Check a_leaf{"a positive multiple of 16",
+                       [](double v) { return v > 0 && v == 16 * double(int(v / 16)); }};
 
 // clang-format off
 const Directive table[] = {
@@ -91,6 +95,22 @@ const Directive table[] = {
     {.words = "gravity", .member = &P::gravity, .meaning = "gravity along x", .example = "yes"},
     {.words = "cutoff", .member = &P::cutoff, .unit = "cm", .check = positive,
      .meaning = "reach of the Coulomb force along the jet, measured at the nozzle", .absent = "the full sum"},
+
+    {.words = "coulomb", .member = &P::coulomb,
+     .meaning = "Coulomb sum: direct over all pairs; by a tree to the accuracy below; auto: whichever is faster",
+     .heading = "Coulomb sum"},
+    {.words = "coulomb accuracy", .member = &P::coulomb_accuracy, .check = below_one,
+     .meaning = "relative L2 error of the field that the tree may make; it is measured and kept"},
+    {.words = "coulomb order", .member = &P::coulomb_order, .check = an_order,
+     .meaning = "order of the expansions", .absent = "chosen by the program"},
+    {.words = "coulomb opening", .member = &P::coulomb_opening, .check = an_opening,
+     .meaning = "opening of the tree, cell radii over distance", .absent = "chosen by the program"},
+    {.words = "coulomb leaf", .member = &P::coulomb_leaf, .check = a_leaf,
+     .meaning = "beads in a leaf", .absent = "chosen by the program"},
+    {.words = "coulomb tree", .member = &P::coulomb_tree,
+     .meaning = "order of the beads in the tree: along the chain, or in space"},
+    {.words = "coulomb expansions", .member = &P::coulomb_expansions,
+     .meaning = "local: dual tree with local expansions; none: Barnes and Hut's, cells on beads"},
 
     {.words = "print time", .member = &P::print_time, .unit = "s", .check = positive,
      .meaning = "interval of the tables", .absent = "1000 timesteps; a hundredth of final time with tolerance",

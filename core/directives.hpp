@@ -24,10 +24,11 @@ struct Check {
 /// Read as an integer, then dropped with a note.
 struct Ignored {};
 
-using Member = std::variant<double Parameters::*, std::optional<double> Parameters::*, int Parameters::*,
-                            std::optional<int> Parameters::*, bool Parameters::*,
-                            std::vector<std::string> Parameters::*, Scheme Parameters::*,
-                            EventRule Parameters::*, Multirate Parameters::*, Units Parameters::*, Ignored>;
+using Member =
+    std::variant<double Parameters::*, std::optional<double> Parameters::*, int Parameters::*,
+                 std::optional<int> Parameters::*, bool Parameters::*, std::vector<std::string> Parameters::*,
+                 Scheme Parameters::*, EventRule Parameters::*, Multirate Parameters::*, Units Parameters::*,
+                 CoulombSum Parameters::*, TreeOrder Parameters::*, ExpansionKind Parameters::*, Ignored>;
 
 struct Directive {
   std::string_view words;

@@ -1,15 +1,17 @@
 #pragma once
 /// The local error of a step as one number, to be held below 1 by the step control:
 ///
-///     max over beads of ( |e_r| / L_step ,  |e_v| / (L_step + |v|) ,  |e_sigma| / (1 + |sigma|) ) / (allowance * tolerance) ,
+///     max over beads of ( |e_r| / L_step ,  |e_v| / (L_step + |v|) ,  |e_sigma| / (1 + |sigma|) ) /
+///     (allowance * tolerance) ,
 ///
-/// e the error estimate of the embedded pair, components in the maximum norm, all scaled. Position counts by the
-/// element length, velocity by the bead's own speed (at least an element length per relaxation time), stress by its own
-/// size (at least the modulus), so that neither the spacing nor the voltage changes what a tolerance buys.
+/// e the error estimate of the embedded pair, components in the maximum norm, all scaled. Position counts by
+/// the element length, velocity by the bead's own speed (at least an element length per relaxation time),
+/// stress by its own size (at least the modulus), so that neither the spacing nor the voltage changes what a
+/// tolerance buys.
 ///
-/// A maximum, not a mean: nearly all of the error sits on the youngest bead, where an average over the chain would hide
-/// it. `allowance` is a choice of scale: it makes tolerance 1e-6 mean errors of about 1e-5 of the collector distance in
-/// the farthest bead of the paper's case 3 (validation: "error follows the tolerance").
+/// A maximum, not a mean: nearly all of the error sits on the youngest bead, where an average over the chain
+/// would hide it. `allowance` is a choice of scale: it makes tolerance 1e-6 mean errors of about 1e-5 of the
+/// collector distance in the farthest bead of the paper's case 3 (validation: "error follows the tolerance").
 
 #include <algorithm>
 #include <cmath>

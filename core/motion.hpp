@@ -17,7 +17,9 @@ class Motion {
   virtual void operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) = 0;
 
   /// At an accepted point of the solution: a motion that remembers (forces/two_rate_motion.hpp) learns here.
-  virtual void at_node(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) { (*this)(jet, t, y, slope); }
+  virtual void at_node(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
+    (*this)(jet, t, y, slope);
+  }
 
   /// The oldest bead of `jet` is about to be removed; the youngest one has just been released.
   virtual void before_removal(const Jet<D>&) {}

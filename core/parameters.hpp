@@ -12,8 +12,21 @@ enum class Scheme { automatic, euler, heun, rk4, dopri5, verner6 };
 enum class EventRule { located, step };
 enum class Multirate { automatic, no };
 enum class Units { cgs, real };
+enum class CoulombSum { direct, tree, automatic };
+enum class TreeOrder { automatic, chain, space };
+enum class ExpansionKind { local, none };
 
-struct Parameters {
+/// How the Coulomb sum is made; what is not given the program chooses.
+struct CoulombSetting {
+  CoulombSum coulomb = CoulombSum::direct;
+  double coulomb_accuracy = 1e-5;  ///< relative L2 error of the field
+  std::optional<int> coulomb_order = {}, coulomb_leaf = {};
+  std::optional<double> coulomb_opening = {};
+  TreeOrder coulomb_tree = TreeOrder::automatic;
+  ExpansionKind coulomb_expansions = ExpansionKind::local;
+};
+
+struct Parameters : CoulombSetting {
   int system = 3;  ///< 1: straight jet along x; 3: three dimensions
   Units units = Units::cgs;
 

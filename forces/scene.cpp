@@ -6,6 +6,7 @@
 
 #include "forces/constitutive.hpp"
 #include "forces/coulomb_force.hpp"
+#include "forces/coulomb_request.hpp"
 #include "forces/surface_tension.hpp"
 #include "forces/uniform.hpp"
 #include "forces/viscoelastic.hpp"
@@ -42,7 +43,7 @@ int reach(const Parameters& p) {
 template <int D>
 class Composer {
  public:
-  explicit Composer(const Parameters& p) : p_(p), g_(groups(p)) {}
+  Composer(const Parameters& p, Threads threads) : p_(p), g_(groups(p)), threads_(threads) {}
 
   std::unique_ptr<StressLaw<D>> stress_law() {
     const Scales s = scales(p_);
@@ -73,8 +74,7 @@ class Composer {
       left_out.push_back({"surface tension", "a straight jet (system 1) has no curvature"});
     }
     add(
-        g_.Q != 0, "density charge is 0", [&] { return std::make_unique<CoulombForce<D>>(g_.Q, reach(p_)); },
-        "Coulomb sum");
+        g_.Q != 0, "density charge is 0", [&] { return coulomb(); }, "Coulomb sum");
     return std::move(terms_);
   }
 
@@ -98,6 +98,11 @@ class Composer {
   std::vector<Choice> composed, left_out;
 
  private:
+  std::unique_ptr<CoulombForce<D>> coulomb() {
+    if (p_.coulomb == CoulombSum::direct) return std::make_unique<CoulombForce<D>>(g_.Q, reach(p_));
+    return std::make_unique<CoulombForce<D>>(g_.Q, coulomb_request(p_), threads_);
+  }
+
   template <class Make>
   void add(bool wanted, const char* why_not, Make make, const char* name) {
     if (!wanted) return left_out.push_back({name, why_not});
@@ -111,6 +116,7 @@ class Composer {
 
   const Parameters& p_;
   Groups g_;
+  Threads threads_;
   std::vector<std::unique_ptr<ForceTerm<D>>> terms_;
 };
 
@@ -118,7 +124,7 @@ class Composer {
 
 template <int D>
 Scene<D> compose(const Parameters& p, Threads threads) {
-  Composer<D> composer(p);
+  Composer<D> composer(p, threads);
   auto law = composer.stress_law();
   auto terms = composer.terms();
   composer.boundaries();
