@@ -27,10 +27,11 @@ inline Parameters with_steps(Parameters p, Scheme scheme, double seconds) {
   return p;
 }
 
-/// The same run by error control.
+/// The same run by error control, every term evaluated at every stage.
 inline Parameters with_tolerance(Parameters p, double tolerance, Scheme scheme = Scheme::automatic) {
   p.integrator = scheme;
   p.tolerance = tolerance;
+  p.multirate = Multirate::no;
   p.timestep.reset();
   return p;
 }
@@ -44,7 +45,7 @@ struct Run {
   Effort to(double seconds, std::vector<Watcher<D>*> watchers = {}) {
     const auto scheme = stepper<D>(chosen_scheme(parameters));
     const auto control = step_control(parameters);
-    March<D> march({scene.jet, *scene.motion, *scheme, *control, scene.nozzle, scene.collector,
+    March<D> march({scene.jet, scene.right_hand_side(), *scheme, *control, scene.nozzle, scene.collector,
                     parameters.events, parameters.tolerance.value_or(0), std::move(watchers)});
     march.to(seconds / unit.time);
     return march.effort();
