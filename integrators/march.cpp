@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "integrators/diagnosis.hpp"
 #include "core/error_norm.hpp"
+#include "integrators/diagnosis.hpp"
 
 namespace treejet {
 
@@ -109,6 +109,19 @@ void March<D>::step(double h) {
   ++effort_.steps;
 }
 
+template <int D>
+void March<D>::give_up() const {
+  Eigen::Index bead = 0;
+  if (parts_.stepper.error.rows() == now_.y.rows()) {
+    parts_.stepper.error.abs().rowwise().maxCoeff().maxCoeff(&bead);
+  }
+  throw NumericalError(
+      fmt::format("at scaled time {}: the step has fallen below round-off because of bead {} (number {} "
+                  "since the start); "
+                  "likely cause: beads have met, or the tolerance is too small to be met",
+                  now_.t, bead, parts_.jet.removed + bead));
+}
+
 /// Steps from now_ to next_ until the step control is content; returns the time up to which an event may be
 /// met on the extrapolated solution.
 template <int D>
@@ -125,20 +138,17 @@ double March<D>::attempt(double end) {
         h = ahead / 2;
       h = std::min(h, end - now_.t);
     }
-    if (!(now_.t + h > now_.t)) {
-      throw NumericalError(
-          fmt::format("step below round-off at scaled time {}: {}", now_.t,
-                      "the tolerance cannot be met; beads have met, or the tolerance is too small"));
-    }
+    if (!(now_.t + h > now_.t)) give_up();
     step(h);
     const bool estimated = parts_.stepper.error.rows() > 0;
     const double error =
-        estimated ? error_norm<D>(parts_.stepper.error, now_.y, parts_.nozzle.l_step()) / parts_.tolerance : 0;
+        estimated ? error_norm<D>(parts_.stepper.error, now_.y, parts_.nozzle.l_step()) / parts_.tolerance
+                  : 0;
     if (!parts_.control.accepts(now_.t, h, error)) {
       ++effort_.rejected;
       continue;
     }
-    return aimed ? next_.t + dense_fraction * h : next_.t;
+    return aimed ? std::min(next_.t + dense_fraction * h, end) : next_.t;
   }
 }
 

@@ -58,6 +58,7 @@ class March {
   bool aims() const { return parts_.control.steps_to_events() && parts_.events == EventRule::located; }
   void evaluate(Node<D>& node);
   void step(double h);
+  [[noreturn]] void give_up() const;
   double attempt(double end);
   std::optional<Due> located_event(double reach);
   double overdue(bool insertion, const Table<D>& y, double t) const;
