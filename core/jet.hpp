@@ -6,11 +6,11 @@
 ///        |   bead 0      bead 1              bead n-1  held
 ///              element 0     element 1 ...      element n-1
 ///
-/// Row 0 is the oldest bead, the one nearest to the collector; row n-1 is the youngest. Element i joins bead i
-/// to its upper neighbour, bead i+1 or, for i = n-1, the nozzle, and owns the stress sigma_i. Insertion appends
-/// a row, removal drops row 0. The nozzle and the bead held below it are boundary conditions, functions of time
-/// and of bead n-1 (core/nozzle.hpp), and therefore not rows.
-/// Source: paper, Sec. "Equations of motion" and "Jet insertion".
+/// Row 0 is the oldest bead, the one nearest to the collector; row n-1 is the youngest. Element i joins bead
+/// i to its upper neighbour, bead i+1 or, for i = n-1, the nozzle, and owns the stress sigma_i. Insertion
+/// appends a row, removal drops row 0. The nozzle and the bead held below it are boundary conditions,
+/// functions of time and of bead n-1 (core/nozzle.hpp), and therefore not rows. Source: paper, Sec.
+/// "Equations of motion" and "Jet insertion".
 
 #include <cstdint>
 
@@ -23,8 +23,9 @@ struct Jet {
   double t = 0;
   Table<D> y;
   Eigen::ArrayXd mass, charge;
-  bool held = false;           ///< a bead waits at distance l_step below the nozzle, its charge fading in
-  std::int64_t removed = 0;    ///< beads that have left at the collector: bead i was the (removed + i)-th inserted
+  bool held = false;  ///< a bead waits at distance l_step below the nozzle, its charge fading in
+  std::int64_t removed =
+      0;  ///< beads that have left at the collector: bead i was the (removed + i)-th inserted
 
   Eigen::Index size() const { return y.rows(); }
 };

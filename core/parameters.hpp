@@ -60,4 +60,10 @@ struct Parameters {
   double xyz_rescale = 1;
 };
 
+/// The interval of the tables in s; without print time JETSPIN's 1000 steps, or a hundredth of the run.
+inline double print_interval(const Parameters& p) {
+  if (p.print_time) return *p.print_time;
+  return p.timestep ? 1000 * *p.timestep : p.final_time / 100;
+}
+
 }  // namespace treejet

@@ -12,6 +12,8 @@ void coulomb_direct(const PointCharges<D>& points, Rows rows, const FieldArrays<
 
 template <int D>
 void coulomb_direct(const PointCharges<D>& points, Rows rows, const FieldArrays<D>& field) {
+  constexpr int few = 6;  // points that do not repay filling wide registers
+  if (points.n <= few) return coulomb_plain<D>(points, rows, field, points.n);
   coulomb_direct<D>(points, rows, field, default_path());
 }
 

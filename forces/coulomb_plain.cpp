@@ -18,7 +18,8 @@ void coulomb_plain(const PointCharges<D>& points, Rows rows, const FieldArrays<D
         d[k] = points.r[k][i] - points.r[k][j];
         d2 += d[k] * d[k];
       }
-      const double w = points.q[j] / (d2 * std::sqrt(d2));
+      const double distance = D == 1 ? std::abs(d[0]) : std::sqrt(d2);
+      const double w = points.q[j] / (d2 * distance);
       for (int k = 0; k < D; ++k) e[k] += w * d[k];
     }
     for (int k = 0; k < D; ++k) field[k][i] = e[k];

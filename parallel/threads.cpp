@@ -4,44 +4,69 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <exception>
+
+#ifdef __SANITIZE_THREAD__
+#include <sanitizer/tsan_interface.h>
+#endif
 
 namespace treejet {
 
-void for_each_block(Threads threads, Rows rows, int block, const std::function<void(Rows)>& f) {
-  if (rows.size() <= 0) return;
-  const int first_block = rows.first / block, last_block = (rows.last - 1) / block;
-  if (threads.count <= 1 || first_block == last_block) return f(rows);
+namespace {
 
-  std::exception_ptr failure;
-  std::atomic_flag failed = ATOMIC_FLAG_INIT;
-#pragma omp parallel for num_threads(threads.count) schedule(static)
-  for (int b = first_block; b <= last_block; ++b) {
-    try {
-      f({std::max(rows.first, b * block), std::min(rows.last, (b + 1) * block)});
-    } catch (...) {
-      if (!failed.test_and_set()) failure = std::current_exception();
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
+/// GCC's OpenMP library is not instrumented, so the thread sanitizer sees neither its fork nor its join and
+/// would report every region. These two tell it: what happened before `hand_over(x)` is visible after
+/// `take_over(x)`. The region's own bookkeeping lies outside of them, hence `no_sanitize_thread` below; all
+/// that f does is watched.
+#ifdef __SANITIZE_THREAD__
+void hand_over(void* x) {
+  __tsan_release(x);
 }
+void take_over(void* x) {
+  __tsan_acquire(x);
+}
+#else
+void hand_over(void*) {}
+void take_over(void*) {}
+#endif
 
-void for_each_task(Threads threads, int count, const std::function<void(int)>& f) {
+}  // namespace
+
+[[gnu::no_sanitize_thread]] void for_each_task(Threads threads, int count,
+                                               const std::function<void(int)>& f) {
   if (threads.count <= 1 || count <= 1) {
     for (int k = 0; k < count; ++k) f(k);
     return;
   }
   std::exception_ptr failure;
   std::atomic_flag failed = ATOMIC_FLAG_INIT;
+  char fork, join;
+  hand_over(&fork);
 #pragma omp parallel for num_threads(threads.count) schedule(dynamic, 1)
   for (int k = 0; k < count; ++k) {
+    take_over(&fork);
     try {
       f(k);
     } catch (...) {
       if (!failed.test_and_set()) failure = std::current_exception();
     }
+    hand_over(&join);
   }
+  take_over(&join);
   if (failure) std::rethrow_exception(failure);
+}
+
+void for_each_block_threaded(Threads threads, Rows rows, int block, const std::function<void(Rows)>& f) {
+  if (rows.size() <= 0) return;
+  const int first = rows.first / block, blocks = (rows.last - 1) / block + 1 - first;
+  const int shares = std::min(threads.count, blocks);
+  const auto border = [&](int k) {
+    return (first + static_cast<int>(std::int64_t{blocks} * k / shares)) * block;
+  };
+  for_each_task(threads, shares, [&](int k) {
+    f({std::max(rows.first, border(k)), std::min(rows.last, border(k + 1))});
+  });
 }
 
 int available_cores() {

@@ -3,8 +3,7 @@
 ///
 /// Invariant: a block of rows is computed by exactly one thread, and blocks start at multiples of `block`
 /// counted from row 0, whatever the number of threads; a function of rows therefore gives the same bits on
-/// any number of threads. The first exception thrown in a block is rethrown to the caller once all threads
-/// are done.
+/// any number of threads. The first exception thrown is rethrown to the caller once all threads are done.
 
 #include <functional>
 
@@ -16,8 +15,15 @@ struct Threads {
   int count = 1;
 };
 
+/// Calls f on whole blocks that cover `rows`, one contiguous share a thread.
+void for_each_block_threaded(Threads threads, Rows rows, int block, const std::function<void(Rows)>& f);
+
 /// Calls f on blocks that cover `rows`; with one thread a single call f(rows).
-void for_each_block(Threads threads, Rows rows, int block, const std::function<void(Rows)>& f);
+template <class F>
+void for_each_block(Threads threads, Rows rows, int block, const F& f) {
+  if (threads.count > 1) return for_each_block_threaded(threads, rows, block, std::cref(f));
+  if (rows.size() > 0) f(rows);
+}
 
 /// Calls f(0), ..., f(count - 1), each once, a free thread taking the next: for tasks of unequal size that
 /// write to places of their own, so that it does not matter which thread takes which.

@@ -1,0 +1,87 @@
+#pragma once
+/// The chain at one instant, as the force terms see it: the beads of a stage with the nozzle and the held
+/// bead in place, and the geometry of the elements.
+///
+/// Points are the n beads, then the held bead if there is one, then the nozzle. Element i (i < n) joins bead
+/// i to its upper neighbour; that of bead n-1 is the nozzle even while a bead is held:
+///     l_i = |r_i - r_up|,   t_i = (r_i - r_up) / l_i   (away from the nozzle),   strain rate = (v_i -
+///     v_up).t_i / l_i.
+/// Volume is conserved, pi a_i^2 l_i = pi a_0^2 l_step. Scaled. Source: paper, Sec. "Equations of motion".
+
+#include <utility>
+
+#include "core/jet.hpp"
+#include "core/nozzle.hpp"
+
+namespace treejet {
+
+template <int D>
+struct Chain {
+  using Points = Eigen::Array<double, Eigen::Dynamic, D>;
+
+  int beads = 0;
+  Points point;                 ///< beads, [held], nozzle
+  Eigen::ArrayXd point_charge;  ///< as the Coulomb sum sees it
+  Points tangent;               ///< per element, like all below
+  Eigen::ArrayXd inverse_length, strain_rate, stress, inverse_mass;
+
+  int points() const { return static_cast<int>(point.rows()); }
+};
+
+/// Sizes the chain for the jet and sets its boundary: held bead and nozzle.
+template <int D>
+void set_boundary(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, double t, const Table<D>& y) {
+  const Eigen::Index n = y.rows(), points = n + (jet.held ? 2 : 1);
+  chain.beads = static_cast<int>(n);
+  chain.point.resize(points, Eigen::NoChange);
+  chain.point_charge.resize(points);
+  chain.tangent.resize(n, Eigen::NoChange);
+  for (auto* a : {&chain.inverse_length, &chain.strain_rate, &chain.stress, &chain.inverse_mass})
+    a->resize(n);
+  if (jet.held) {
+    const Vec<D> youngest = position<D>(y, n - 1);
+    chain.point.row(n) = nozzle.held_position(youngest, t).transpose();
+    chain.point_charge[n] = nozzle.faded_charge(youngest, t);
+  }
+  chain.point.row(points - 1) = nozzle.position(t).transpose();
+  chain.point_charge[points - 1] = Nozzle<D>::charge;
+}
+
+/// Fills beads and elements first <= i < last.
+template <int D>
+void set_elements(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, double t, const Table<D>& y,
+                  std::pair<Eigen::Index, Eigen::Index> rows) {
+  const auto [first, last] = rows;
+  const Eigen::Index n = y.rows(), m = last - first;
+  chain.point.middleRows(first, m) = y.middleRows(first, m).template leftCols<D>();
+  chain.point_charge.segment(first, m) = jet.charge.segment(first, m);
+  chain.stress.segment(first, m) = y.col(stress_column<D>).segment(first, m);
+  chain.inverse_mass.segment(first, m) = jet.mass.segment(first, m).inverse();
+
+  // d = r_i - r_up and w = v_i - v_up; the youngest bead hangs on the nozzle, the others on the next row
+  auto d = chain.tangent.middleRows(first, m);
+  const Eigen::Index joined = last == n ? m - 1 : m;
+  d.topRows(joined) = y.middleRows(first, joined).template leftCols<D>() -
+                      y.middleRows(first + 1, joined).template leftCols<D>();
+  if (last == n) d.row(m - 1) = y.row(n - 1).template head<D>() - nozzle.position(t).transpose().array();
+
+  auto inverse = chain.inverse_length.segment(first, m);
+  auto rate = chain.strain_rate.segment(first, m);
+  if constexpr (D == 1) {
+    inverse = d.col(0).inverse();
+    d.setOnes();
+  } else {
+    inverse = d.square().rowwise().sum().rsqrt();
+    for (int k = 0; k < D; ++k) d.col(k) *= inverse;
+  }
+  rate.setZero();
+  const Vec<D> v_nozzle = nozzle.velocity(t);
+  for (int k = 0; k < D; ++k) {
+    const auto v = y.col(velocity_column<D> + k);
+    rate.head(joined) += (v.segment(first, joined) - v.segment(first + 1, joined)) * d.col(k).head(joined);
+    if (last == n) rate[m - 1] += (v[n - 1] - v_nozzle[k]) * d(m - 1, k);
+  }
+  rate *= inverse;
+}
+
+}  // namespace treejet

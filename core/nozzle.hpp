@@ -1,0 +1,113 @@
+#pragma once
+/// The nozzle: a point charge at x = 0 that may circle in the y-z plane, and the rule by which it lets beads
+/// go.
+///
+/// Insertion takes two events, both functions of d, the distance of the youngest bead (row n-1) from the
+/// nozzle:
+///   place    at d = 1.5 l_step: a bead is held on the chord nozzle -> bead n-1 at distance l_step; it exists
+///   as a
+///            charge only, faded in by s(d) = (1 - cos(pi (d - 1.5 l_step) / (0.5 l_step))) / 2;
+///   release  at d = 2 l_step, where s = 1: the held bead becomes row n with stress 0 and half the velocity
+///   of its
+///            predecessor above the nozzle velocity (the paper's dragging velocity), so that the strain rate
+///            of the element below is continuous.
+/// The circle is y = A cos(K_s t), z = A sin(K_s t), evaluated, not integrated; its velocity is the
+/// derivative. All quantities scaled. Source: paper, Sec. "Perturbations at the nozzle" and "Jet insertion";
+/// the first event is JETSPIN's, the paper tells of the second only.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/jet.hpp"
+#include "core/parameters.hpp"
+#include "core/scales.hpp"
+
+namespace treejet {
+
+template <int D>
+class Nozzle {
+ public:
+  static constexpr double charge = 1;
+
+  explicit Nozzle(const Parameters& p)
+      : inserting_(p.inserting), l_step_(groups(p).L_step), speed_(p.nozzle_velocity / scales(p).velocity) {
+    if (p.perturb && D == 3) {
+      angular_frequency_ = groups(p).K_s;
+      amplitude_ = p.perturb_amplitude / scales(p).length;
+    }
+  }
+
+  bool inserting() const { return inserting_; }
+  double l_step() const { return l_step_; }
+
+  Vec<D> position(double t) const { return on_circle(0, amplitude_, angular_frequency_ * t); }
+  Vec<D> velocity(double t) const {
+    return on_circle(speed_, angular_frequency_ * amplitude_, angular_frequency_ * t + std::numbers::pi / 2);
+  }
+
+  /// Distance of the youngest bead, at r, beyond the one at which the next insertion event is due.
+  double overdue(const Jet<D>& jet, const Vec<D>& r, double t) const {
+    return (r - position(t)).norm() - (jet.held ? 2.0 : 1.5) * l_step_;
+  }
+
+  /// Where the held bead sits while the youngest one is at r.
+  Vec<D> held_position(const Vec<D>& r, double t) const {
+    const Vec<D> nozzle = position(t);
+    return nozzle + l_step_ * (r - nozzle).normalized();
+  }
+
+  /// s(d), the fraction of its charge that the held bead shows. Past d = 2 l_step, where only the step that
+  /// goes beyond a release asks for it, it goes on smoothly: a kink inside that step would make the release
+  /// an event of third order.
+  double faded_charge(const Vec<D>& r, double t) const {
+    const double d = (r - position(t)).norm() / l_step_;
+    if (d <= 1.5) return 0;
+    return 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (d - 1.5));
+  }
+
+  /// Both throw NumericalError if the event has been missed by more than half an element.
+  void place(Jet<D>& jet) const {
+    check_timely(jet);
+    jet.held = true;
+  }
+
+  void release(Jet<D>& jet) const {
+    check_timely(jet);
+    const Eigen::Index youngest = jet.size() - 1;
+    const Vec<D> r = treejet::position<D>(jet.y, youngest);
+    Vec<D> v = treejet::velocity<D>(jet.y, youngest) / 2;
+    v[0] += speed_ / 2;
+    append<D>(jet, held_position(r, jet.t), v, /*stress*/ 0, /*mass*/ 1, /*charge*/ 1);
+    jet.held = false;
+  }
+
+ private:
+  void check_timely(const Jet<D>& jet) const {
+    const Eigen::Index youngest = jet.size() - 1;
+    const double late = overdue(jet, treejet::position<D>(jet.y, youngest), jet.t) / l_step_;
+    if (late <= 0.5) return;
+    throw NumericalError(fmt::format(
+        "at scaled time {}: bead {} is {:.3g} elements beyond the place where the nozzle should have "
+        "released another; likely cause: the time step is too large for events seen at step ends",
+        jet.t, youngest, late));
+  }
+
+  Vec<D> on_circle(double x, double radius, double phase) const {
+    Vec<D> r = Vec<D>::Zero();
+    r[0] = x;
+    if constexpr (D == 3) {
+      r[1] = radius * std::cos(phase);
+      r[2] = radius * std::sin(phase);
+    }
+    return r;
+  }
+
+  bool inserting_;
+  double l_step_, speed_;
+  double angular_frequency_ = 0, amplitude_ = 0;
+};
+
+}  // namespace treejet

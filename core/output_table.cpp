@@ -1,0 +1,46 @@
+#include "core/output_table.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "core/observable_keys.hpp"
+#include "core/progress.hpp"
+
+namespace treejet {
+
+namespace {
+std::string label(const std::string& key) {
+  for (const auto& known : observable_keys) {
+    if (known.key == key) return fmt::format("{}[{}]", key, known.unit);
+  }
+  return key;
+}
+}  // namespace
+
+StatFile::StatFile(OutputFile file, const std::vector<std::string>& keys) : file_(std::move(file)) {
+  std::string header = "#";
+  for (const auto& key : keys) header += fmt::format(" {}", label(key));
+  file_.write(header + "\n");
+}
+
+void StatFile::row(const std::vector<double>& values) {
+  std::string line;
+  for (double v : values) line += fmt::format("{:>24.16e}", v);
+  file_.write(line + "\n");
+}
+
+void TerminalTable::row(const std::vector<double>& values) {
+  constexpr int rows_a_header = 50;
+  std::string text;
+  if (rows_++ % rows_a_header == 0) {
+    for (const auto& key : keys_) text += fmt::format("{:>16}", label(key));
+    text += "\n";
+  }
+  for (double v : values) text += fmt::format("{:>16.8g}", v);
+  if (stderr_is_interactive()) fmt::print(stderr, "{}", clear_line);
+  fmt::print("{}\n", text);
+  std::fflush(stdout);
+}
+
+}  // namespace treejet

@@ -1,0 +1,35 @@
+#pragma once
+/// The two tables of observables.
+///
+/// statdat.dat: a first line `# key[unit] key[unit] ...`, then one row a print time, numbers with 17
+/// significant digits separated by blanks. The terminal table carries the same rows with fewer digits under a
+/// header of its own.
+
+#include <string>
+#include <vector>
+
+#include "core/output_file.hpp"
+#include "core/recorder.hpp"
+
+namespace treejet {
+
+class StatFile final : public RowSink {
+ public:
+  StatFile(OutputFile file, const std::vector<std::string>& keys);
+  void row(const std::vector<double>& values) override;
+
+ private:
+  OutputFile file_;
+};
+
+class TerminalTable final : public RowSink {
+ public:
+  explicit TerminalTable(std::vector<std::string> keys) : keys_(std::move(keys)) {}
+  void row(const std::vector<double>& values) override;
+
+ private:
+  std::vector<std::string> keys_;
+  int rows_ = 0;
+};
+
+}  // namespace treejet

@@ -1,0 +1,30 @@
+#include "core/output_xyz.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace treejet {
+
+template <int D>
+void Trajectory<D>::sample(const Jet<D>& jet) {
+  const Eigen::Index beads = jet.size() + 1, shown = std::min<Eigen::Index>(beads, setting_.maxnum);
+  most_ = std::max(most_, beads);
+  fmt::memory_buffer frame;
+  auto out = std::back_inserter(frame);
+  fmt::format_to(out, "{}\nt = {:.10g} s  beads = {}\n", setting_.maxnum, jet.t * setting_.scales.time,
+                 shown);
+  const double cm = setting_.scales.length * setting_.rescale;
+  for (Eigen::Index i = 0; i < shown; ++i) {
+    Vec<3> r = Vec<3>::Zero();
+    r.template head<D>() = cm * (i < jet.size() ? position<D>(jet.y, i) : setting_.nozzle.position(jet.t));
+    fmt::format_to(out, "C {:.9g} {:.9g} {:.9g}\n", r[0], r[1], r[2]);
+  }
+  for (Eigen::Index i = shown; i < setting_.maxnum; ++i) fmt::format_to(out, "C 0 0 0\n");
+  file_.write({frame.data(), frame.size()});
+}
+
+template class Trajectory<1>;
+template class Trajectory<3>;
+
+}  // namespace treejet

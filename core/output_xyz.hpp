@@ -1,0 +1,43 @@
+#pragma once
+/// traj.xyz: the trajectory for VMD, OVITO and the like, in centimetres (times `print xyz rescale`).
+///
+/// A frame: the number of lines that follow (`print xyz maxnum`, constant); a comment `t = <s> s  beads =
+/// <real lines>`; lines `C x y z`, oldest bead first, the nozzle last, then padding at the origin. With more
+/// beads than maxnum the ones nearest to the collector are kept.
+
+#include <algorithm>
+
+#include "core/nozzle.hpp"
+#include "core/output_file.hpp"
+#include "core/sampling.hpp"
+#include "core/scales.hpp"
+
+namespace treejet {
+
+template <int D>
+class Trajectory final : public Sampling<D> {
+ public:
+  struct Setting {
+    const Nozzle<D>& nozzle;
+    Scales scales;
+    double interval;  ///< scaled
+    int maxnum;
+    double rescale;
+  };
+
+  Trajectory(const Setting& setting, OutputFile file)
+      : Sampling<D>(setting.interval), setting_(setting), file_(std::move(file)) {}
+
+  /// The most beads (nozzle counted) a frame had to hold.
+  Eigen::Index most_beads() const { return most_; }
+
+ protected:
+  void sample(const Jet<D>& jet) override;
+
+ private:
+  Setting setting_;
+  OutputFile file_;
+  Eigen::Index most_ = 0;
+};
+
+}  // namespace treejet

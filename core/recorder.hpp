@@ -1,0 +1,63 @@
+#pragma once
+/// Rows of observables at every `print time`: the terminal table and statdat.dat.
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/observables.hpp"
+#include "core/sampling.hpp"
+
+namespace treejet {
+
+/// Takes the rows of a list of keys.
+class RowSink {
+ public:
+  virtual ~RowSink() = default;
+  virtual void row(const std::vector<double>& values) = 0;
+};
+
+template <int D>
+class Recorder final : public Sampling<D> {
+ public:
+  struct Setting {
+    const Nozzle<D>& nozzle;
+    const Collector& collector;
+    Scales scales;
+    double nozzle_radius, collector_distance;  ///< cm
+    double interval, end;                      ///< scaled
+  };
+
+  explicit Recorder(const Setting& setting);
+
+  /// Sends the keys' values to the sink at every row.
+  void add(const std::vector<std::string>& keys, std::unique_ptr<RowSink> sink);
+
+  void start(const Jet<D>& jet) override;
+  void segment(const Jet<D>& jet, const Segment<D>& segment) override;
+  void event(EventKind kind, const Jet<D>& jet) override { statistics_.event(kind, jet); }
+
+ protected:
+  void sample(const Jet<D>& jet) override;
+  void before_sample(const Jet<D>&, const Segment<D>& segment, double t) override {
+    statistics_.integrate(segment, t);
+  }
+
+ private:
+  struct List {
+    std::vector<Observable<D>> observables;
+    std::unique_ptr<RowSink> sink;
+  };
+  using Clock = std::chrono::steady_clock;
+
+  Timing timing(double t) const;
+
+  Setting setting_;
+  Statistics<D> statistics_;
+  std::vector<List> lists_;
+  double fed_ = 0, landed_ = 0;
+  Clock::time_point started_, last_row_;
+};
+
+}  // namespace treejet

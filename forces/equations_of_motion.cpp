@@ -1,0 +1,72 @@
+#include "forces/equations_of_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace treejet {
+
+namespace {
+constexpr int block = 16;  // rows; the width of the Coulomb kernels' target blocks
+}
+
+template <int D>
+EquationsOfMotion<D>::EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<StressLaw<D>> stress_law,
+                                        std::vector<std::unique_ptr<ForceTerm<D>>> terms, Threads threads)
+    : nozzle_(std::move(nozzle)),
+      stress_law_(std::move(stress_law)),
+      terms_(std::move(terms)),
+      threads_(threads) {
+  for (auto& term : terms_) {
+    if (auto* coulomb = dynamic_cast<CoulombForce<D>*>(term.get())) coulomb_ = coulomb;
+  }
+}
+
+template <int D>
+Threads EquationsOfMotion<D>::worthwhile(int beads) const {
+  return {std::clamp(beads / beads_worth_a_thread, 1, threads_.count)};
+}
+
+template <int D>
+void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
+  const int n = static_cast<int>(y.rows());
+  slope.resize(n, Eigen::NoChange);
+  if (n == 0) return;
+  const Threads threads = worthwhile(n);
+
+  set_boundary<D>(chain_, jet, nozzle_, t, y);
+  for_each_block(threads, {0, n}, block, [&](Rows rows) {
+    set_elements<D>(chain_, jet, nozzle_, t, y, {rows.first, rows.last});
+  });
+  for (auto& term : terms_) term->prepare(chain_);
+  for_each_block(threads, {0, n}, block, [&](Rows rows) {
+    set_local(chain_, y, rows, slope);
+    Acceleration<D> acceleration = slope.template middleCols<D>(velocity_column<D>);
+    if (coulomb_) coulomb_->add(chain_, rows, acceleration);
+  });
+}
+
+template <int D>
+void EquationsOfMotion<D>::set_local(const Chain<D>& chain, const Table<D>& y, Rows rows,
+                                     Table<D>& slope) const {
+  const int i = rows.first, n = rows.size();
+  slope.middleRows(i, n).template leftCols<D>() =
+      y.middleRows(i, n).template middleCols<D>(velocity_column<D>);
+  slope.middleRows(i, n).template middleCols<D>(velocity_column<D>).setZero();
+  stress_law_->set(chain, rows, slope.col(stress_column<D>));
+  Acceleration<D> acceleration = slope.template middleCols<D>(velocity_column<D>);
+  for (auto& term : terms_) {
+    if (term.get() != coulomb_) term->add(chain, rows, acceleration);
+  }
+}
+
+template class EquationsOfMotion<1>;
+template class EquationsOfMotion<3>;
+
+std::string threads_description(Threads threads) {
+  if (threads.count == 1) return "1 thread";
+  return fmt::format("{} threads ({} below {} beads)", threads.count, threads.count - 1,
+                     threads.count * beads_worth_a_thread);
+}
+
+}  // namespace treejet

@@ -1,0 +1,59 @@
+#pragma once
+/// The equations of motion: the terms that a scene names, summed. The only right-hand side of the program.
+///
+///     dr_i/dt = v_i ,    m_i dv_i/dt = sum of the force terms ,    d sigma_i/dt = constitutive equation .
+///
+/// A term that is left out is not here: no test, no array. Every row is computed by one thread, in the order
+/// of the terms, so the bits of the result do not depend on the number of threads. Source: paper, Sec.
+/// "Equations of motion", scaled form.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/motion.hpp"
+#include "core/nozzle.hpp"
+#include "forces/coulomb_force.hpp"
+#include "forces/term.hpp"
+#include "parallel/threads.hpp"
+
+namespace treejet {
+
+template <int D>
+class EquationsOfMotion final : public Motion<D> {
+ public:
+  EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<StressLaw<D>> stress_law,
+                    std::vector<std::unique_ptr<ForceTerm<D>>> terms, Threads threads);
+
+  void operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) override;
+
+  /// Everything but the Coulomb force, which couples all beads, for the slopes of `rows`.
+  void set_local(const Chain<D>& chain, const Table<D>& y, Rows rows, Table<D>& slope) const;
+
+  /// The Coulomb force, null in a scene without charge, and the chain, both as the last evaluation left them.
+  const CoulombForce<D>* coulomb() const { return coulomb_; }
+  const Chain<D>& chain() const { return chain_; }
+
+  const Nozzle<D>& nozzle() const { return nozzle_; }
+  const StressLaw<D>& stress_law() const { return *stress_law_; }
+  const std::vector<std::unique_ptr<ForceTerm<D>>>& terms() const { return terms_; }
+
+ private:
+  Threads worthwhile(int beads) const;
+
+  Nozzle<D> nozzle_;
+  std::unique_ptr<StressLaw<D>> stress_law_;
+  std::vector<std::unique_ptr<ForceTerm<D>>> terms_;
+  CoulombForce<D>* coulomb_ = nullptr;  ///< one of the terms
+  Threads threads_;
+  Chain<D> chain_;
+};
+
+/// Fewer beads than this for each thread do not repay waking it: the Coulomb sum over 2 * 256 beads takes
+/// about as long as a hundred wake-ups, so that a late one does no harm either.
+constexpr int beads_worth_a_thread = 256;
+
+/// "2 threads (1 below 128 beads)".
+std::string threads_description(Threads threads);
+
+}  // namespace treejet

@@ -1,0 +1,137 @@
+#include "forces/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "forces/constitutive.hpp"
+#include "forces/coulomb_force.hpp"
+#include "forces/surface_tension.hpp"
+#include "forces/uniform.hpp"
+#include "forces/viscoelastic.hpp"
+
+namespace treejet {
+
+namespace {
+
+/// Beads at x_i = initial length - i l_step, at the nozzle velocity and stress.
+template <int D>
+Jet<D> initial_jet(const Parameters& p) {
+  const Scales s = scales(p);
+  const int n = initial_elements(p);
+  Vec<D> r = Vec<D>::Zero(), v = Vec<D>::Zero();
+  v[0] = p.nozzle_velocity / s.velocity;
+  Jet<D> jet;
+  jet.y.resize(n, Eigen::NoChange);
+  jet.mass.setOnes(n);
+  jet.charge.setOnes(n);
+  for (int i = 0; i < n; ++i) {
+    r[0] = (n - i) * s.l_step / s.length;
+    jet.y.row(i) << r.transpose().array(), v.transpose().array(), p.nozzle_stress / s.stress;
+  }
+  return jet;
+}
+
+/// The deck's cutoff is a length of jet as it leaves the nozzle, hence a number of points; without one all
+/// pairs count.
+int reach(const Parameters& p) {
+  constexpr double all = 2e9;
+  return static_cast<int>(p.cutoff ? std::min(std::ceil(*p.cutoff / scales(p).l_step), all) : all);
+}
+
+template <int D>
+class Composer {
+ public:
+  explicit Composer(const Parameters& p) : p_(p), g_(groups(p)) {}
+
+  std::unique_ptr<StressLaw<D>> stress_law() {
+    const Scales s = scales(p_);
+    if (!p_.hbfluid && p_.yield_stress == 0) {
+      composed.push_back({"Maxwell stress", "always"});
+      left_out.push_back({"Herschel-Bulkley stress", "no hbfluid yes, no yield stress"});
+      return std::make_unique<Maxwell<D>>();
+    }
+    composed.push_back({"Herschel-Bulkley stress", p_.hbfluid ? "hbfluid yes" : "yield stress"});
+    const double K = p_.hb_consistency * std::pow(s.time, 1 - p_.hb_index);
+    return std::make_unique<HerschelBulkley<D>>(p_.yield_stress / s.stress, K, p_.hb_index);
+  }
+
+  std::vector<std::unique_ptr<ForceTerm<D>>> terms() {
+    add(
+        true, "", [&] { return std::make_unique<Viscoelastic<D>>(g_.L_step, g_.F_ve); },
+        "viscoelastic force");
+    add(
+        g_.V != 0, p_.density_charge == 0 ? "density charge is 0" : "external potential is 0",
+        [&] { return std::make_unique<ElectricField<D>>(g_.V); }, "external field");
+    add(
+        g_.F_g != 0, "no gravity yes", [&] { return std::make_unique<Gravity<D>>(g_.F_g); }, "gravity");
+    if constexpr (D == 3) {
+      add(
+          g_.A != 0, "surface tension is 0",
+          [&] { return std::make_unique<SurfaceTension>(g_.L_step, g_.A); }, "surface tension");
+    } else {
+      left_out.push_back({"surface tension", "a straight jet (system 1) has no curvature"});
+    }
+    add(
+        g_.Q != 0, "density charge is 0", [&] { return std::make_unique<CoulombForce<D>>(g_.Q, reach(p_)); },
+        "Coulomb sum");
+    return std::move(terms_);
+  }
+
+  void boundaries() {
+    note(p_.inserting, "insertion at the nozzle", "inserting yes", "no inserting yes");
+    note(p_.removing, "removal at the collector", "removing yes", "no removing yes");
+    note(p_.perturb, "circling nozzle", "perturb yes", "no perturb yes");
+  }
+
+  /// Two rates need an error to hold, and a sum over all pairs to take apart.
+  bool two_rates() {
+    const char* why_not = !p_.tolerance                   ? "a fixed timestep has no error to hold"
+                          : p_.multirate == Multirate::no ? "multirate no"
+                          : p_.cutoff                     ? "cutoff"
+                          : g_.Q == 0                     ? "no Coulomb sum"
+                                                          : nullptr;
+    note(!why_not, "two rates", "multirate auto", why_not);
+    return !why_not;
+  }
+
+  std::vector<Choice> composed, left_out;
+
+ private:
+  template <class Make>
+  void add(bool wanted, const char* why_not, Make make, const char* name) {
+    if (!wanted) return left_out.push_back({name, why_not});
+    terms_.push_back(make());
+    composed.push_back({std::string(terms_.back()->name()), why_not ? "named by the deck" : "always"});
+  }
+
+  void note(bool wanted, const char* name, const char* why, const char* why_not) {
+    (wanted ? composed : left_out).push_back({name, wanted ? why : why_not});
+  }
+
+  const Parameters& p_;
+  Groups g_;
+  std::vector<std::unique_ptr<ForceTerm<D>>> terms_;
+};
+
+}  // namespace
+
+template <int D>
+Scene<D> compose(const Parameters& p, Threads threads) {
+  Composer<D> composer(p);
+  auto law = composer.stress_law();
+  auto terms = composer.terms();
+  composer.boundaries();
+  const Nozzle<D> nozzle(p);
+  Scene<D> scene{initial_jet<D>(p), nozzle, Collector(p), nullptr, nullptr, {}, {}};
+  scene.motion = std::make_unique<EquationsOfMotion<D>>(nozzle, std::move(law), std::move(terms), threads);
+  if (composer.two_rates()) scene.two_rates = std::make_unique<TwoRateMotion<D>>(*scene.motion, *p.tolerance);
+  scene.composed = std::move(composer.composed);
+  scene.left_out = std::move(composer.left_out);
+  return scene;
+}
+
+template Scene<1> compose<1>(const Parameters&, Threads);
+template Scene<3> compose<3>(const Parameters&, Threads);
+
+}  // namespace treejet

@@ -1,0 +1,39 @@
+#pragma once
+/// A scene: what a deck's parameters compose, ready to move. Only the terms that the deck names are in it;
+/// for each one left out, `left_out` tells why.
+
+#include <string>
+#include <vector>
+
+#include "core/collector.hpp"
+#include "core/nozzle.hpp"
+#include "core/parameters.hpp"
+#include "forces/equations_of_motion.hpp"
+#include "forces/two_rate_motion.hpp"
+
+namespace treejet {
+
+struct Choice {
+  std::string term, reason;
+};
+
+template <int D>
+struct Scene {
+  Jet<D> jet;  ///< the initial jet
+  Nozzle<D> nozzle;
+  Collector collector;
+  std::unique_ptr<EquationsOfMotion<D>> motion;
+  std::unique_ptr<TwoRateMotion<D>> two_rates;  ///< null where every term is evaluated at every stage
+  std::vector<Choice> composed, left_out;
+
+  /// The right-hand side to step with.
+  Motion<D>& right_hand_side() {
+    if (two_rates) return *two_rates;
+    return *motion;
+  }
+};
+
+template <int D>
+Scene<D> compose(const Parameters& parameters, Threads threads);
+
+}  // namespace treejet

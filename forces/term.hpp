@@ -1,0 +1,37 @@
+#pragma once
+/// A force term: what it adds to the acceleration of the beads.
+///
+/// A term works on a share of rows, so that one indirect call serves a whole loop. `prepare` runs once an
+/// evaluation, before any `add`, and may use all threads; `add` runs concurrently on disjoint rows and writes
+/// those rows only. Scaled: the result is a force over the mass of the bead it acts on.
+
+#include <string_view>
+
+#include "core/chain.hpp"
+#include "parallel/rows.hpp"
+
+namespace treejet {
+
+/// The velocity columns of a slope table.
+template <int D>
+using Acceleration = Eigen::Ref<Eigen::Array<double, Eigen::Dynamic, D>, 0, Eigen::OuterStride<>>;
+
+template <int D>
+class ForceTerm {
+ public:
+  virtual ~ForceTerm() = default;
+  virtual std::string_view name() const = 0;
+  virtual void prepare(const Chain<D>&) {}
+  virtual void add(const Chain<D>& chain, Rows rows, Acceleration<D>& a) const = 0;
+};
+
+/// The constitutive equation: the rate of the stress of the elements in `rows`.
+template <int D>
+class StressLaw {
+ public:
+  virtual ~StressLaw() = default;
+  virtual std::string_view name() const = 0;
+  virtual void set(const Chain<D>& chain, Rows rows, Eigen::Ref<Eigen::ArrayXd> rate) const = 0;
+};
+
+}  // namespace treejet

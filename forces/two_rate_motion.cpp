@@ -1,0 +1,244 @@
+#include "forces/two_rate_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error_norm.hpp"
+
+namespace treejet {
+
+namespace {
+
+constexpr int fast_old = 8, fast_young = 24;  ///< beads at the two ends
+constexpr int near = 24;  ///< further points whose field on the fast beads is not continued
+
+/// A fast end of the chain, and the points near to it.
+struct End {
+  Rows fast, window;
+};
+
+std::array<End, 2> ends(int beads, int points) {
+  return {End{{0, fast_old}, {0, fast_old + near}},
+          End{{beads - fast_young, beads}, {beads - fast_young - near, points}}};
+}
+
+/// Field at the fast beads of an end, of the points near to it.
+template <int D>
+void set_near_field(const typename Chain<D>::Points& point, const Eigen::ArrayXd& charge, const End& end,
+                    typename Chain<D>::Points& field) {
+  PointCharges<D> points{{}, charge.data() + end.window.first, end.window.size()};
+  FieldArrays<D> out;
+  for (int k = 0; k < D; ++k) {
+    points.r[k] = point.col(k).data() + end.window.first;
+    out[k] = field.col(k).data() + end.window.first;
+  }
+  coulomb_direct<D>(points, {end.fast.first - end.window.first, end.fast.last - end.window.first}, out);
+}
+
+/// Field of a charge at p, at the first n of some points.
+template <int D>
+typename Chain<D>::Points field_of(double charge, const Vec<D>& p, const typename Chain<D>::Points& point,
+                                   Eigen::Index n) {
+  typename Chain<D>::Points d = point.topRows(n).rowwise() - p.transpose().array();
+  const Eigen::ArrayXd w = charge * d.square().rowwise().sum().rsqrt().cube();
+  return d.colwise() * w;
+}
+
+/// Adds the field e of some charge at the first beads to what is remembered.
+template <int D>
+void add_field(Moment<D>& m, const typename Chain<D>::Points& e, const Jet<D>& jet, double Q) {
+  const Eigen::Index n = e.rows();
+  m.field.topRows(n) += e;
+  m.slope.topRows(n).template leftCols<D>() += e.colwise() * (Q * jet.charge.head(n) / jet.mass.head(n));
+}
+
+/// Makes room for one more row at `at`.
+template <class Array>
+void insert_row(Array& a, Eigen::Index at) {
+  const Eigen::Index n = a.rows();
+  a.conservativeResize(n + 1, Eigen::NoChange);
+  a.bottomRows(n - at) = a.middleRows(at, n - at).eval();
+}
+
+template <class Array>
+void drop_first_row(Array& a) {
+  a = a.bottomRows(a.rows() - 1).eval();
+}
+
+}  // namespace
+
+template <int D>
+bool TwoRateMotion<D>::continues(Eigen::Index beads) const {
+  constexpr int worthwhile = 64;  // below, a full evaluation is as cheap
+  return remembered_ == moments && beads >= worthwhile;
+}
+
+template <int D>
+void TwoRateMotion<D>::operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
+  if (continues(y.rows())) return continued(jet, t, y, slope);
+  full_(jet, t, y, slope);
+  ++full_evaluations_;
+}
+
+template <int D>
+void TwoRateMotion<D>::at_node(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
+  const double since = remembered_ > 0 ? t - past_[0].t : std::numeric_limits<double>::infinity();
+  if (continues(y.rows()) && since < interval_) return continued(jet, t, y, slope);
+  full_(jet, t, y, slope);
+  ++full_evaluations_;
+  Moment<D> now = moment(jet, t, slope);
+  if (continues(y.rows())) {
+    set_far(now);
+    const double error = mismatch(jet, t, y, now) * since / tolerance_;
+    // a slow bead gains this error over and over on its whole way, while most steps err on the youngest bead
+    // only
+    constexpr double aim = 1e-3, order = 4;
+    interval_ = since * std::clamp(std::pow(aim / std::max(error, 1e-10), 1 / order), 0.3, 1.5);
+  }
+  remember(std::move(now));
+}
+
+/// The full evaluation just made.
+template <int D>
+Moment<D> TwoRateMotion<D>::moment(const Jet<D>& jet, double t, const Table<D>& slope) const {
+  const Chain<D>& c = full_.chain();
+  const Eigen::Index n = slope.rows(), nozzle = c.points() - 1;
+  Moment<D> now{t,  c.point.topRows(n + 1),           c.point_charge.head(n + 1), full_.coulomb()->field(),
+                {}, slope.template rightCols<D + 1>()};
+  if (jet.held) {
+    const Vec<D> held = c.point.row(n).matrix().transpose();
+    add_field<D>(now, field_of<D>(-c.point_charge[n], held, c.point, n), jet, full_.coulomb()->Q());
+    now.point.row(n) = c.point.row(nozzle);
+    now.point_charge[n] = c.point_charge[nozzle];
+  }
+  return now;
+}
+
+/// The parabola through the remembered values: its weights at t.
+template <int D>
+std::array<double, TwoRateMotion<D>::moments> TwoRateMotion<D>::weights(double t) const {
+  const double t0 = past_[0].t, t1 = past_[1].t, t2 = past_[2].t;
+  return {(t - t1) * (t - t2) / ((t0 - t1) * (t0 - t2)), (t - t0) * (t - t2) / ((t1 - t0) * (t1 - t2)),
+          (t - t0) * (t - t1) / ((t2 - t0) * (t2 - t1))};
+}
+
+template <int D>
+void TwoRateMotion<D>::continued(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
+  const int n = static_cast<int>(y.rows()), slow = n - fast_old - fast_young;
+  const double Q = full_.coulomb()->Q();
+  const auto w = weights(t);
+  slope.resize(n, Eigen::NoChange);
+  field_.resize(n + 2, Eigen::NoChange);
+  set_boundary<D>(chain_, jet, full_.nozzle(), t, y);
+
+  slope.middleRows(fast_old, slow).template leftCols<D>() =
+      y.middleRows(fast_old, slow).template middleCols<D>(velocity_column<D>);
+  slope.middleRows(fast_old, slow).template rightCols<D + 1>() =
+      w[0] * past_[0].slope.middleRows(fast_old, slow) + w[1] * past_[1].slope.middleRows(fast_old, slow) +
+      w[2] * past_[2].slope.middleRows(fast_old, slow);
+  for (const End& end : ends(n, chain_.points())) {
+    set_elements<D>(chain_, jet, full_.nozzle(), t, y, {end.window.first, std::min(end.window.last, n)});
+    full_.set_local(chain_, y, end.fast, slope);
+    set_near_field<D>(chain_.point, chain_.point_charge, end, field_);
+    const int i = end.fast.first, m = end.fast.size();
+    const Points field = field_.middleRows(i, m) + w[0] * past_[0].far.middleRows(i, m) +
+                         w[1] * past_[1].far.middleRows(i, m) + w[2] * past_[2].far.middleRows(i, m);
+    slope.middleRows(i, m).template middleCols<D>(velocity_column<D>) +=
+        field.colwise() * (Q * jet.charge.segment(i, m) / jet.mass.segment(i, m));
+  }
+  if (jet.held && chain_.point_charge[n] > 0) {
+    const int far = n - fast_young;  // beads that do not have the held one among their near points
+    const Vec<D> held = chain_.point.row(n).matrix().transpose();
+    const Points points = y.topRows(far).template leftCols<D>();
+    slope.topRows(far).template middleCols<D>(velocity_column<D>) +=
+        field_of<D>(chain_.point_charge[n], held, points, far).colwise() *
+        (Q * jet.charge.head(far) / jet.mass.head(far));
+  }
+}
+
+/// What the continuation would have given now against what is true, in the norm of the step control.
+template <int D>
+double TwoRateMotion<D>::mismatch(const Jet<D>& jet, double t, const Table<D>& y,
+                                  const Moment<D>& now) const {
+  Table<D> error = Table<D>::Zero(y.rows(), 2 * D + 1);
+  const auto w = weights(t);
+  error.template rightCols<D + 1>() =
+      w[0] * past_[0].slope + w[1] * past_[1].slope + w[2] * past_[2].slope - now.slope;
+  for (const End& end : ends(static_cast<int>(y.rows()), static_cast<int>(now.point.rows()))) {
+    const int i = end.fast.first, m = end.fast.size();
+    const Points far = w[0] * past_[0].far.middleRows(i, m) + w[1] * past_[1].far.middleRows(i, m) +
+                       w[2] * past_[2].far.middleRows(i, m) - now.far.middleRows(i, m);
+    error.middleRows(i, m).template middleCols<D>(velocity_column<D>) =
+        far.colwise() * (full_.coulomb()->Q() * jet.charge.segment(i, m) / jet.mass.segment(i, m));
+    error.middleRows(i, m).col(stress_column<D>).setZero();
+  }
+  return error_norm<D>(error, y, full_.nozzle().l_step());
+}
+
+template <int D>
+void TwoRateMotion<D>::set_far(Moment<D>& moment) const {
+  const auto n = static_cast<int>(moment.field.rows());
+  moment.far.resize(n + 1, Eigen::NoChange);
+  for (const End& end : ends(n, n + 1)) {
+    set_near_field<D>(moment.point, moment.point_charge, end, moment.far);
+    const int i = end.fast.first, m = end.fast.size();
+    moment.far.middleRows(i, m) = moment.field.middleRows(i, m) - moment.far.middleRows(i, m);
+  }
+}
+
+template <int D>
+void TwoRateMotion<D>::remember(Moment<D>&& now) {
+  // values too close in time would make the parabola amplify their own errors
+  const bool replaces = remembered_ >= 2 && now.t - past_[0].t < 0.2 * (past_[0].t - past_[1].t);
+  if (!replaces) {
+    std::rotate(past_.begin(), past_.end() - 1, past_.end());
+    remembered_ = std::min(remembered_ + 1, moments);
+  }
+  past_[0] = std::move(now);
+  if (continues(past_[0].field.rows())) {
+    for (auto& m : past_) set_far(m);
+  }
+}
+
+template <int D>
+void TwoRateMotion<D>::before_removal(const Jet<D>& jet) {
+  for (int k = 0; k < remembered_; ++k) {
+    Moment<D>& m = past_[k];
+    const Vec<D> oldest = m.point.row(0).matrix().transpose();
+    drop_first_row(m.point);
+    drop_first_row(m.point_charge);
+    drop_first_row(m.field);
+    drop_first_row(m.slope);
+    const Jet<D> left{jet.t, {}, jet.mass.tail(jet.size() - 1), jet.charge.tail(jet.size() - 1), false, 0};
+    add_field<D>(m, field_of<D>(-jet.charge[0], oldest, m.point, m.field.rows()), left, full_.coulomb()->Q());
+    if (continues(jet.size() - 1)) set_far(m);
+  }
+}
+
+template <int D>
+void TwoRateMotion<D>::after_release(const Jet<D>& jet) {
+  const Eigen::Index youngest = jet.size() - 1;
+  for (int k = 0; k < remembered_; ++k) {
+    Moment<D>& m = past_[k];
+    const Vec<D> p = position<D>(jet.y, youngest) + (m.t - jet.t) * velocity<D>(jet.y, youngest);
+    add_field<D>(m, field_of<D>(jet.charge[youngest], p, m.point, youngest), jet, full_.coulomb()->Q());
+
+    // the field of all others at p is minus what a charge at p would do to them
+    const Points e = field_of<D>(1, p, m.point, youngest + 1);
+    insert_row(m.field, youngest);
+    m.field.row(youngest) = -(e.colwise() * m.point_charge).colwise().sum();
+    insert_row(m.slope, youngest);
+    m.slope.row(youngest).setZero();  // a fast bead: not looked at before it has a past of its own
+    insert_row(m.point, youngest);
+    m.point.row(youngest) = p.transpose().array();
+    insert_row(m.point_charge, youngest);
+    m.point_charge[youngest] = jet.charge[youngest];
+    if (continues(jet.size())) set_far(m);
+  }
+}
+
+template class TwoRateMotion<1>;
+template class TwoRateMotion<3>;
+
+}  // namespace treejet

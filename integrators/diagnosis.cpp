@@ -1,0 +1,63 @@
+#include "integrators/diagnosis.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace treejet {
+
+namespace {
+
+template <int D>
+std::string likely_cause(const Table<D>& before, Eigen::Index bead) {
+  Eigen::Index nearest = -1;
+  double distance = std::numeric_limits<double>::infinity();
+  for (Eigen::Index j = 0; j < before.rows(); ++j) {
+    const double d = (position<D>(before, j) - position<D>(before, bead)).norm();
+    if (j != bead && d < distance) distance = d, nearest = j;
+  }
+  const double extent = std::max(1.0, position<D>(before, bead).norm());
+  if (nearest >= 0 && distance < 1e-6 * extent) {
+    return fmt::format("beads {} and {} have met (scaled distance {:.3g})", bead, nearest, distance);
+  }
+  return "the time step is too large for the forces: use a smaller timestep, or tolerance instead of "
+         "timestep";
+}
+
+}  // namespace
+
+template <int D>
+std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, std::int64_t removed) {
+  if (!std::isfinite(y.sum())) {
+    for (Eigen::Index i = 0; i < y.rows(); ++i) {
+      if (y.row(i).isFinite().all()) continue;
+      return fmt::format("bead {} (number {} since the start) is no longer finite; likely cause: {}", i,
+                         removed + i, likely_cause<D>(before, i));
+    }
+  }
+  if constexpr (D == 1) {
+    for (Eigen::Index i = 0; i + 1 < y.rows(); ++i) {
+      if (y(i, 0) > y(i + 1, 0)) continue;
+      return fmt::format(
+          "beads {} and {} of the straight jet have crossed; likely cause: {}", i, i + 1,
+          "the time step is too large, or the charge density too small to keep the beads apart");
+    }
+    if (y.rows() > 0 && !(y(y.rows() - 1, 0) > 0)) {
+      return fmt::format("bead {} has moved back behind the nozzle; likely cause: {}", y.rows() - 1,
+                         "the time step is too large, or the pull of the field too weak to draw a jet");
+    }
+  } else {
+    for (Eigen::Index i = 0; i + 1 < y.rows(); ++i) {
+      const Vec<D> element = position<D>(y, i) - position<D>(y, i + 1);
+      if (element.dot(position<D>(before, i) - position<D>(before, i + 1)) > 0) continue;
+      return fmt::format("beads {} and {} have swapped sides within one step; likely cause: {}", i, i + 1,
+                         "the time step is too large, or the beads have met");
+    }
+  }
+  return std::nullopt;
+}
+
+template std::optional<std::string> trouble<1>(const Table<1>&, const Table<1>&, std::int64_t);
+template std::optional<std::string> trouble<3>(const Table<3>&, const Table<3>&, std::int64_t);
+
+}  // namespace treejet

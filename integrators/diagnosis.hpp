@@ -1,0 +1,17 @@
+#pragma once
+/// Whether a state can be gone on with, and if not, what to tell the user.
+
+#include <optional>
+#include <string>
+
+#include "core/jet.hpp"
+
+namespace treejet {
+
+/// Empty if every number of y is finite and the beads are in order: in one dimension along x, in three
+/// without an element that has turned by more than a right angle within the step. Else a sentence that names
+/// the bead and the likely cause. `before` is the last good state, with the same rows.
+template <int D>
+std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, std::int64_t removed);
+
+}  // namespace treejet

@@ -1,0 +1,29 @@
+#pragma once
+/// Heun's scheme, order 2:    0 |
+///                            1 |  1
+///                            --+----------
+///                              | 1/2  1/2
+/// Source: paper, Sec. "Integration schemes".
+
+#include "integrators/stepper.hpp"
+
+namespace treejet {
+
+template <int D>
+class Heun final : public Stepper<D> {
+ public:
+  int order() const override { return 2; }
+  int evaluations() const override { return 1; }
+
+  void step(Motion<D>& f, const Jet<D>& jet, const Node<D>& from, double h, Table<D>& next) override {
+    const auto& k1 = from.slope;
+    stage_ = from.y + h * k1;
+    f(jet, from.t + h, stage_, k2_);
+    next = from.y + h / 2 * (k1 + k2_);
+  }
+
+ private:
+  Table<D> stage_, k2_;
+};
+
+}  // namespace treejet

@@ -1,0 +1,272 @@
+#include "integrators/march.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "integrators/diagnosis.hpp"
+#include "core/error_norm.hpp"
+
+namespace treejet {
+
+namespace {
+/// An event this fraction of a step off the end of the step is met by dense output, whose error there carries
+/// the square of this fraction; farther off, an adaptive step is made anew to end on the event.
+constexpr double dense_fraction = 0.01;
+/// Events closer than this fraction of l_step to being due, when another has just happened, are due.
+constexpr double simultaneous = 1e-12;
+}  // namespace
+
+template <int D>
+void March<D>::evaluate(Node<D>& node) {
+  parts_.motion.at_node(parts_.jet, node.t, node.y, node.slope);
+  ++effort_.evaluations;
+}
+
+template <int D>
+double March<D>::overdue(bool insertion, const Table<D>& y, double t) const {
+  const Eigen::Index last = y.rows() - 1;
+  if (insertion) return parts_.nozzle.overdue(parts_.jet, position<D>(y, last), t);
+  return parts_.collector.overdue(y(0, 0));
+}
+
+template <int D>
+double March<D>::overdue(bool insertion, const Segment<D>& segment, double t) {
+  segment.at(t, insertion ? segment.first().rows() - 1 : 0, one_);
+  return overdue(insertion, one_, t);
+}
+
+template <int D>
+double March<D>::zero(bool insertion, const Segment<D>& segment, double a, double b) {
+  double ga = overdue(insertion, segment, a), gb = overdue(insertion, segment, b);
+  if (ga >= 0) return a;
+  // regula falsi, Illinois variant
+  for (int i = 0; i < 60 && gb != 0 && b - a > 1e-15 * b; ++i) {
+    const double c = (a * gb - b * ga) / (gb - ga);
+    if (!(c > a && c < b)) break;
+    const double gc = overdue(insertion, segment, c);
+    if (gc < 0) {
+      a = c, ga = gc;
+      gb /= 2;
+    } else {
+      b = c, gb = gc;
+      ga /= 2;
+    }
+  }
+  return b;
+}
+
+template <int D>
+std::optional<typename March<D>::Due> March<D>::first_event(const Segment<D>& segment, double reach) {
+  std::optional<Due> first;
+  const auto look_for = [&](bool insertion) {
+    double end = segment.until;
+    if (overdue(insertion, next_.y, next_.t) < 0) {
+      if (reach <= end || overdue(insertion, segment, reach) < 0) return;
+      end = reach;
+    }
+    const double t = zero(insertion, segment, segment.begin(), end);
+    if (!first || t < first->t) first = Due{t, insertion};
+  };
+  if (parts_.nozzle.inserting()) look_for(true);
+  if (parts_.collector.removing()) look_for(false);
+  return first;
+}
+
+/// Time to the next event, at most `horizon`, as position, velocity, acceleration and jerk at now_ foretell
+/// it.
+template <int D>
+double March<D>::predicted_event(double horizon) const {
+  double soonest = horizon;
+  const auto foretell = [&](bool insertion, Eigen::Index i, const std::optional<Vec<D>>& jerk) {
+    const Vec<D> r = position<D>(now_.y, i), v = velocity<D>(now_.y, i), a = velocity<D>(now_.slope, i);
+    const auto g = [&](double s) {
+      Vec<D> ahead = r + s * (v + s / 2 * a);
+      if (jerk) ahead += s * s * s / 6 * *jerk;
+      if (!insertion) return parts_.collector.overdue(ahead[0]);
+      return parts_.nozzle.overdue(parts_.jet, ahead, now_.t + s);
+    };
+    double low = 0, high = soonest, g_low = g(low), g_high = g(high);
+    if (!(g_low < 0 && g_high >= 0)) return;
+    for (int k = 0; k < 30 && high - low > 1e-9 * horizon; ++k) {
+      const double s = low + (high - low) * std::clamp(g_low / (g_low - g_high), 0.01, 0.99), g_s = g(s);
+      (g_s < 0 ? low : high) = s;
+      (g_s < 0 ? g_low : g_high) = g_s;
+    }
+    soonest = high;
+  };
+  if (parts_.nozzle.inserting()) foretell(true, now_.y.rows() - 1, youngest_jerk_);
+  if (parts_.collector.removing()) foretell(false, 0, oldest_jerk_);
+  return soonest;
+}
+
+template <int D>
+void March<D>::step(double h) {
+  parts_.stepper.step(parts_.motion, parts_.jet, now_, h, next_.y);
+  next_.t = now_.t + h;
+  effort_.evaluations += parts_.stepper.evaluations();
+  ++effort_.steps;
+}
+
+/// Steps from now_ to next_ until the step control is content; returns the time up to which an event may be
+/// met on the extrapolated solution.
+template <int D>
+double March<D>::attempt(double end) {
+  while (true) {
+    double h = parts_.control.proposal(now_.t, end);
+    bool aimed = false;
+    if (aims()) {
+      const double ahead = predicted_event(2.2 * h);
+      aimed = ahead <= 1.1 * h;
+      if (aimed)
+        h = ahead;
+      else if (ahead < 2 * h)
+        h = ahead / 2;
+      h = std::min(h, end - now_.t);
+    }
+    if (!(now_.t + h > now_.t)) {
+      throw NumericalError(
+          fmt::format("step below round-off at scaled time {}: {}", now_.t,
+                      "the tolerance cannot be met; beads have met, or the tolerance is too small"));
+    }
+    step(h);
+    const bool estimated = parts_.stepper.error.rows() > 0;
+    const double error =
+        estimated ? error_norm<D>(parts_.stepper.error, now_.y, parts_.nozzle.l_step()) / parts_.tolerance : 0;
+    if (!parts_.control.accepts(now_.t, h, error)) {
+      ++effort_.rejected;
+      continue;
+    }
+    return aimed ? next_.t + dense_fraction * h : next_.t;
+  }
+}
+
+template <int D>
+void March<D>::to(double end) {
+  now_.t = parts_.jet.t;
+  now_.y = parts_.jet.y;
+  evaluate(now_);
+  for (auto* w : parts_.watchers) w->start(parts_.jet);
+  while (now_.t < end && now_.y.rows() > 0) {
+    const double reach = attempt(end);
+    if (auto what = trouble<D>(now_.y, next_.y, parts_.jet.removed)) {
+      throw NumericalError(fmt::format("at scaled time {}: {}", next_.t, *what));
+    }
+    evaluate(next_);
+    if (parts_.events == EventRule::step) {
+      commit(std::nullopt);
+      look_at_step_end();
+    } else {
+      commit(located_event(reach));
+    }
+  }
+  parts_.jet.t = now_.t;
+  parts_.jet.y = now_.y;
+  for (auto* w : parts_.watchers) w->finish(parts_.jet);
+}
+
+/// The event that ends this step, if any. An adaptive step with an event well inside is made anew to end
+/// there.
+template <int D>
+std::optional<typename March<D>::Due> March<D>::located_event(double reach) {
+  const double h = next_.t - now_.t;
+  auto due = first_event(Segment<D>(now_, next_), reach);
+  if (due && aims() && due->t < next_.t - dense_fraction * h) {
+    ++effort_.redone;
+    step(due->t - now_.t);
+    evaluate(next_);
+    due = first_event(Segment<D>(now_, next_), next_.t + dense_fraction * h);
+  }
+  return due;
+}
+
+/// Shows the watchers the solution up to the event, or the whole step, and goes there.
+template <int D>
+void March<D>::commit(std::optional<Due> due) {
+  Segment<D> segment(now_, next_);
+  if (due) segment.until = due->t;
+  for (auto* w : parts_.watchers) w->segment(parts_.jet, segment);
+  if (due) {
+    parts_.jet.t = due->t;
+    parts_.jet.y = segment.at(due->t);
+    settle(*due);
+    youngest_jerk_ = oldest_jerk_ = std::nullopt;
+    now_.t = parts_.jet.t;
+    now_.y = parts_.jet.y;
+    if (now_.y.rows() > 0) evaluate(now_);
+  } else {
+    if (aims()) {
+      youngest_jerk_ = segment.jerk_at_end(now_.y.rows() - 1);
+      oldest_jerk_ = segment.jerk_at_end(0);
+    }
+    std::swap(now_, next_);
+  }
+}
+
+template <int D>
+void March<D>::insertion() {
+  Jet<D>& jet = parts_.jet;
+  const EventKind kind = jet.held ? EventKind::release : EventKind::place;
+  if (jet.held) {
+    parts_.nozzle.release(jet);
+    parts_.motion.after_release(jet);
+    ++effort_.released;
+  } else {
+    parts_.nozzle.place(jet);
+    ++effort_.placed;
+  }
+  parts_.control.event(kind);
+  for (auto* w : parts_.watchers) w->event(kind, jet);
+}
+
+template <int D>
+void March<D>::removal() {
+  Jet<D>& jet = parts_.jet;
+  if (jet.size() == 1 && parts_.nozzle.inserting()) {
+    throw NumericalError(
+        fmt::format("at scaled time {}: the only bead of the jet has reached the collector before "
+                    "another could be inserted; likely cause: the time step is too large",
+                    jet.t));
+  }
+  for (auto* w : parts_.watchers) w->event(EventKind::removal, jet);
+  parts_.motion.before_removal(jet);
+  drop_first<D>(jet);
+  ++effort_.removed;
+  parts_.control.event(EventKind::removal);
+}
+
+template <int D>
+void March<D>::settle(const Due& due) {
+  Jet<D>& jet = parts_.jet;
+  const double slack = -simultaneous * parts_.nozzle.l_step();
+  due.insertion ? insertion() : removal();
+  while (jet.size() > 0) {
+    if (parts_.nozzle.inserting() && overdue(true, jet.y, jet.t) >= slack) {
+      insertion();
+    } else if (parts_.collector.removing() && overdue(false, jet.y, jet.t) >= slack) {
+      removal();
+    } else {
+      break;
+    }
+  }
+}
+
+template <int D>
+void March<D>::look_at_step_end() {
+  Jet<D>& jet = parts_.jet;
+  const bool inserts = parts_.nozzle.inserting() && overdue(true, now_.y, now_.t) >= 0;
+  const bool removes = parts_.collector.removing() && overdue(false, now_.y, now_.t) > 0;
+  if (!inserts && !removes) return;
+  jet.t = now_.t;
+  jet.y = now_.y;
+  if (inserts) insertion();
+  if (removes) removal();
+  now_.y = jet.y;
+  if (now_.y.rows() > 0) evaluate(now_);
+}
+
+template class March<1>;
+template class March<3>;
+
+}  // namespace treejet

@@ -1,0 +1,82 @@
+#pragma once
+/// Marches a jet through time and its events.
+///
+/// Insertion (place, release) and removal are zeros of functions of the state, located on the dense output
+/// (core/segment.hpp). Order at one instant: insertion, then removal, then whatever these have made due,
+/// until nothing is. The last bead is never removed while beads are inserted; without insertion the march
+/// ends with an empty jet. With EventRule::step both are looked for at the ends of steps only, at most one of
+/// each a step: JETSPIN's way, first order in the step whatever the scheme.
+///
+/// Errors: NumericalError names bead, time and likely cause when the state is no longer finite, a step falls
+/// below round-off, or beads of a straight jet have crossed. The watchers have seen everything up to there.
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/collector.hpp"
+#include "core/nozzle.hpp"
+#include "core/watcher.hpp"
+#include "integrators/step_control.hpp"
+#include "integrators/stepper.hpp"
+
+namespace treejet {
+
+/// Work done by a march.
+struct Effort {
+  std::int64_t evaluations = 0, steps = 0, rejected = 0, redone = 0, placed = 0, released = 0, removed = 0;
+};
+
+template <int D>
+class March {
+ public:
+  struct Parts {
+    Jet<D>& jet;
+    Motion<D>& motion;
+    Stepper<D>& stepper;
+    StepControl& control;
+    const Nozzle<D>& nozzle;
+    const Collector& collector;
+    EventRule events = EventRule::located;
+    double tolerance = 0;  ///< of the step control; 0 with fixed steps
+    std::vector<Watcher<D>*> watchers;
+  };
+
+  explicit March(const Parts& parts) : parts_(parts), one_(1, 2 * D + 1) {}
+
+  /// On to scaled time `end`, or until the jet is empty.
+  void to(double end);
+
+  const Effort& effort() const { return effort_; }
+
+ private:
+  struct Due {
+    double t;
+    bool insertion;
+  };
+
+  bool aims() const { return parts_.control.steps_to_events() && parts_.events == EventRule::located; }
+  void evaluate(Node<D>& node);
+  void step(double h);
+  double attempt(double end);
+  std::optional<Due> located_event(double reach);
+  double overdue(bool insertion, const Table<D>& y, double t) const;
+  double overdue(bool insertion, const Segment<D>& segment, double t);
+  double predicted_event(double from_now) const;
+  std::optional<Due> first_event(const Segment<D>& segment, double reach);
+  double zero(bool insertion, const Segment<D>& segment, double a, double b);
+  void commit(std::optional<Due> due);
+  void insertion();
+  void removal();
+  void settle(const Due& due);
+  void look_at_step_end();
+
+  Parts parts_;
+  Node<D> now_, next_;
+  std::optional<Vec<D>> youngest_jerk_,
+      oldest_jerk_;  ///< third derivatives at now_, unless an event has just passed
+  Table<D> one_;
+  Effort effort_;
+};
+
+}  // namespace treejet

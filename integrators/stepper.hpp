@@ -1,0 +1,25 @@
+#pragma once
+/// A one-step scheme for dy/dt = f(t, y): whole-table algebra in which no bead, force, thread or rank is
+/// visible.
+///
+/// `from` holds state and slope at the beginning, so the first stage is never computed twice. `next` is
+/// resized. A scheme with an embedded partner leaves in `error` the difference of the two results, else
+/// `error` is empty.
+
+#include "core/motion.hpp"
+#include "core/segment.hpp"
+
+namespace treejet {
+
+template <int D>
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  virtual int order() const = 0;
+  virtual int evaluations() const = 0;  ///< of f, a step, beside the slope that `from` brings
+  virtual void step(Motion<D>& f, const Jet<D>& jet, const Node<D>& from, double h, Table<D>& next) = 0;
+
+  Table<D> error;
+};
+
+}  // namespace treejet

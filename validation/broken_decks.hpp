@@ -1,0 +1,185 @@
+#pragma once
+/// A sound deck and the ways to break it: one line replaced (or added, or left out), the line that is blamed,
+/// and the essential words of the one message it must get.
+
+#include <string>
+#include <vector>
+
+namespace treejet {
+
+inline const std::string sound_deck = R"(# A PVP jet, for the tests of the deck
+system 3
+integrator 2
+timestep 1.d-8
+final time 0.5
+print time 1.d-2
+print list t x n
+inserting yes
+removing yes
+points 1
+initial length 0.02
+nozzle cross 5.d-3
+density mass 0.84
+density charge 44000.
+viscosity 20.
+elastic modulus 50000.
+collector distance 16.
+external potential 30.02
+surface tension 21.13
+finish
+)";
+
+struct Broken {
+  std::string was;  ///< line of the sound deck; empty: `is` is added before finish
+  std::string is;   ///< what stands there instead; empty: the line is left out
+  std::vector<std::string> says;
+  std::string blamed = {};  ///< the line the message names if it is not `is`; "deck" if no line is named
+};
+
+// clang-format off
+inline const std::vector<Broken> broken_decks = {
+    // words
+    {"viscosity 20.", "viscosty 20.", {"'viscosty 20.'", "unknown directive", "did you mean viscosity?"}},
+    {"viscosity 20.", "visc 20.", {"'visc 20.'", "did you mean viscosity?"}},
+    {"viscosity 20.", "eta 20.", {"'eta'", "unknown directive", "viscosity: missing"}},
+    {"viscosity 20.", "viscosity20. 20.", {"did you mean viscosity?"}},
+    {"viscosity 20.", "viscosity = 20.", {"'viscosity = 20.'", "expected blanks, not ="}},
+    {"viscosity 20.", "viscosity=20.", {"'viscosity=20.'", "expected blanks, not ="}},
+    {"collector distance 16.", "colector distence 16.", {"did you mean collector distance?"}},
+    {"collector distance 16.", "collectordistance 16.", {"did you mean collector distance?"}},
+    {"collector distance 16.", "collector_distance 16.", {"did you mean collector distance?"}},
+    {"final time 0.5", "final tiem 0.5", {"did you mean final time?"}},
+    {"", "density 5", {"density: expected density mass, or density charge"}},
+    {"", "print 5", {"expected print time, or print list, or print xyz"}},
+    {"", "nozle velocity 1.", {"did you mean nozzle velocity?"}},
+    {"", "nozzle velocty 1.", {"did you mean nozzle velocity?"}},
+    {"", "banana 3", {"'banana'", "unknown directive", "treejet template"}},
+    {"", "\xc2\xa0gravity yes", {"'\\xc2\\xa0gravity yes'", "did you mean gravity?"}},
+    {"", "grav yes", {"'grav yes'", "unknown directive; did you mean gravity?"}},
+    {"external potential 30.02", "ext pot 30.02", {"did you mean external potential?"}},
+    {"surface tension 21.13", "surfacetension 21.13", {"did you mean surface tension?"}},
+    {"", "perturbing yes", {"did you mean perturb?"}},
+    {"", "perturbation frequncy 1.d4", {"unknown directive", "'perturbation frequncy 1.d4'", "did you mean perturbation frequency?"}},
+    {"", "print xyz maxnumb 400", {"unknown directive", "'print xyz maxnumb 400'", "did you mean print xyz maxnum?"}},
+    {"finish", "finsh", {"'finsh'", "did you mean finish?"}},
+    {"finish", "", {"finish: missing"}, "deck"},
+    {"finish", "finish now", {"finish: expected nothing after it", "'now'"}},
+    {"finish", "finish\ngravity yes", {"finish: expected nothing after it", "'gravity'"}, "gravity yes"},
+    // arguments
+    {"viscosity 20.", "viscosity", {"viscosity: expected a real number (g/(cm s)), found nothing"}},
+    {"viscosity 20.", "viscosity 20. poise", {"viscosity: expected nothing after 20.", "'poise'"}},
+    {"viscosity 20.", "viscosity twenty", {"expected a real number", "'twenty'"}},
+    {"viscosity 20.", "viscosity 20,5", {"'20,5'", "did you mean 20.5?"}},
+    {"viscosity 20.", "viscosity 1.0-8", {"'1.0-8'", "did you mean 1.0d-8?"}},
+    {"viscosity 20.", "viscosity 20.cm", {"'20.cm'", "did you mean 20.?"}},
+    {"viscosity 20.", "viscosity 1..5", {"did you mean 1.5?"}},
+    {"viscosity 20.", "viscosity 0x10", {"expected a real number", "'0x10'"}},
+    {"viscosity 20.", "viscosity .", {"expected a real number", "'.'"}},
+    {"viscosity 20.", "viscosity 1.d+", {"did you mean 1.d?"}},
+    {"viscosity 20.", "viscosity nan", {"'nan'", "not finite"}},
+    {"viscosity 20.", "viscosity +Inf", {"'+inf'", "not finite"}},
+    {"viscosity 20.", "viscosity 1.d400", {"'1.d400'", "beyond the range of double precision"}},
+    {"viscosity 20.", "viscosity 1.d-400", {"'1.d-400'", "beyond the range of double precision"}},
+    {"initial length 0.02", "initial length 0.02.d0", {"initial length: expected a real number (cm)", "'0.02.d0'", "did you mean 0.02d0?"}},
+    {"points 1", "points 2.7", {"points: expected an integer", "'2.7'"}},
+    {"points 1", "points 1.", {"points: expected an integer", "did you mean 1?"}},
+    {"points 1", "points 99999999999", {"beyond the range of an integer"}},
+    {"points 1", "points 0", {"points: expected a value that is from 1 to 100000000"}},
+    {"points 1", "points -3", {"points: expected a value that is from 1"}},
+    {"inserting yes", "inserting", {"inserting: expected yes|no, found nothing"}},
+    {"inserting yes", "inserting ye", {"inserting: expected yes|no", "did you mean yes?"}},
+    {"inserting yes", "inserting true", {"inserting: expected yes|no", "'true'"}},
+    {"inserting yes", "inserting yes please", {"expected nothing after yes", "'please'"}},
+    {"integrator 2", "integrator 5", {"integrator: expected auto|euler|heun", "'5'"}},
+    {"integrator 2", "integrator huen", {"did you mean heun?"}},
+    {"", "units si", {"units: expected cgs|real"}},
+    {"", "events exact", {"events: expected located|step"}},
+    {"", "multirate yes", {"multirate: expected auto|no"}},
+    {"", "seed abc", {"seed: expected an integer"}},
+    {"system 3", "system 5", {"system: expected a value that is 1 (straight jet) or 3"}},
+    {"print list t x n", "print list", {"print list: expected keys of observables, found nothing"}},
+    {"print list t x n", "print list t xx n", {"print list", "'xx'", "did you mean x", "they are t ts x"}},
+    {"print list t x n", "print list t velocity n", {"print list", "'velocity'", "they are t ts x"}},
+    {"", "printstat list cuurn", {"printstat list", "'cuurn'", "did you mean curn?"}},
+    // signs and sizes
+    {"viscosity 20.", "viscosity 0.", {"viscosity: expected a value that is positive", "'0.'"}},
+    {"viscosity 20.", "viscosity -20.", {"viscosity: expected a value that is positive"}},
+    {"elastic modulus 50000.", "elastic modulus -1.", {"elastic modulus: expected a value that is positive"}},
+    {"density mass 0.84", "density mass 0", {"density mass: expected a value that is positive"}},
+    {"density charge 44000.", "density charge -1.", {"density charge: expected a value that is zero or positive"}},
+    {"surface tension 21.13", "surface tension -1.", {"surface tension: expected a value that is zero or positive"}},
+    {"external potential 30.02", "external potential -1.", {"external potential: expected a value that is zero or positive"}},
+    {"nozzle cross 5.d-3", "nozzle cross 0.d0", {"nozzle cross: expected a value that is positive"}},
+    {"collector distance 16.", "collector distance -16.", {"collector distance: expected a value that is positive"}},
+    {"final time 0.5", "final time 0.", {"final time: expected a value that is positive"}},
+    {"timestep 1.d-8", "timestep 0.", {"timestep: expected a value that is positive"}},
+    {"print time 1.d-2", "print time 0.", {"print time: expected a value that is positive"}},
+    {"", "cutoff 0.", {"cutoff: expected a value that is positive"}},
+    {"", "print xyz 0.", {"print xyz: expected a value that is positive"}},
+    {"", "print xyz rescale 0.", {"print xyz rescale: expected a value that is positive"}},
+    {"", "print xyz maxnum 0", {"print xyz maxnum: expected a value that is from 1"}},
+    {"", "nozzle velocity -1.", {"nozzle velocity: expected a value that is zero or positive"}},
+    // presence
+    {"system 3", "", {"system: missing; it is mandatory", "system <integer>"}, "deck"},
+    {"final time 0.5", "", {"final time: missing; it is mandatory", "final time <real, s>"}, "deck"},
+    {"initial length 0.02", "", {"initial length: missing; it is mandatory"}, "deck"},
+    {"nozzle cross 5.d-3", "", {"nozzle cross: missing; it is mandatory"}, "deck"},
+    {"density mass 0.84", "", {"density mass: missing; it is mandatory"}, "deck"},
+    {"density charge 44000.", "", {"density charge: missing; it is mandatory"}, "deck"},
+    {"viscosity 20.", "", {"viscosity: missing; it is mandatory"}, "deck"},
+    {"elastic modulus 50000.", "", {"elastic modulus: missing; it is mandatory"}, "deck"},
+    {"collector distance 16.", "", {"collector distance: missing; it is mandatory"}, "deck"},
+    {"timestep 1.d-8", "", {"missing; expected either tolerance <real> or timestep <real, s>"}, "deck"},
+    {"points 1", "", {"missing; expected either points <integer> or resolution <real, cm>"}, "deck"},
+    {"integrator 2", "", {"integrator", "timestep needs integrator 1 (euler), 2 (heun) or 3 (rk4)"}, "deck"},
+    {"", "resolution 0.02", {"resolution: expected either this or points, which is given at jet.dat:10"}},
+    {"", "tolerance 1.d-6", {"tolerance: expected either this or timestep, which is given at jet.dat:4"}},
+    {"", "viscosity 20.", {"viscosity: given twice, first at jet.dat:15"}, "last"},
+    {"", "nozzle cross section 5.d-3", {"nozzle cross: given twice, first at jet.dat:12"}},
+    {"", "systype 3", {"system: given twice, first at jet.dat:2"}},
+    // relations
+    {"initial length 0.02", "initial length 0.001", {"initial length 0.001: expected at least nozzle cross (0.005 cm)"}},
+    {"initial length 0.02", "initial length 16.", {"initial length 16.: expected less than collector distance (16 cm)"}},
+    {"points 1", "points 5", {"points 5: expected elements (here 0.004 cm) at least as long as nozzle cross (0.005 cm)"}},
+    {"points 1", "resolution 0.004", {"resolution 0.004: expected elements", "nozzle cross"}},
+    {"points 1", "resolution 0.007", {"resolution 0.007: expected a divisor of initial length (0.02 cm)", "0.01 or 0.006666666667"}},
+    {"points 1", "resolution 0.03", {"resolution 0.03: expected a divisor", "did you mean 0.02?"}},
+    {"points 1", "resolution 1.d-12", {"resolution 1.d-12: expected at most 1e+08 elements"}},
+    {"collector distance 16.", "collector distance 0.04", {"inserting yes: expected a collector distance above two elements (0.04 cm)"}, "inserting yes"},
+    {"timestep 1.d-8", "timestep 0.5", {"timestep 0.5: expected less than final time (0.5 s)"}},
+    {"print time 1.d-2", "print time 1.", {"print time 1.: expected at most final time (0.5 s)"}},
+    {"integrator 2", "integrator dopri5", {"integrator dopri5: timestep needs integrator 1 (euler)"}},
+    {"integrator 2", "integrator auto", {"integrator auto: timestep needs integrator 1 (euler)"}},
+    {"timestep 1.d-8", "tolerance 1.d-6", {"integrator 2: tolerance needs integrator auto"}, "integrator 2"},
+    {"", "hbfluid consistency 2.", {"hbfluid consistency 2.: expected hbfluid yes"}},
+    {"", "hbfluid index 2.", {"hbfluid index 2.: expected hbfluid yes"}},
+    {"", "hbfluid yes\nhbfluid index 2.", {"hbfluid yes: expected hbfluid consistency"}, "hbfluid yes"},
+    {"", "hbfluid yes\nhbfluid consistency 2.", {"hbfluid yes: expected hbfluid index"}, "hbfluid yes"},
+    {"", "perturb yes\nperturb freq 1.d4", {"perturb yes: expected perturb ampl"}, "perturb yes"},
+    {"", "perturb yes\nperturb ampl 1.d-3", {"perturb yes: expected perturb freq"}, "perturb yes"},
+    {"", "perturb yes\nperturb freq 1.d4\nperturb ampl 0.02", {"perturb ampl 0.02: expected less than initial length"}, "perturb ampl 0.02"},
+    {"system 3", "system 1\nperturb yes\nperturb freq 1.d4\nperturb ampl 1.d-3", {"perturb yes: expected no in system 1"}, "perturb yes"},
+    // JETSPIN's own
+    {"", "cutoff points 1000", {"cutoff points", "length in cm", "write cutoff and that length"}},
+    {"system 3", "system 4", {"system 4", "air drag is not modelled", "write system 3"}},
+    {"system 3", "system 2", {"system 2", "write system 1 or system 3"}},
+    {"integrator 2", "integrator 4", {"integrator 4", "write integrator 1, 2 or 3"}},
+    {"", "airdrag yes", {"airdrag", "not modelled", "leave the line out"}},
+    {"", "variable mass deviation 0.1", {"variable mass", "leave the line out"}},
+    {"", "kvfluid yes", {"kvfluid", "leave the line out"}},
+    {"", "dynamic refinement threshold 0.1", {"dynamic refinement", "smaller resolution"}},
+    {"", "restart yes", {"restart"}},
+    {"", "dragvel yes", {"dragvel"}},
+    {"", "primary cutoff 5.", {"primary cutoff"}},
+    {"", "maximum displ 5.", {"maximum displ"}},
+    {"", "multiple step every 5", {"multiple step"}},
+    {"", "external potential type 1", {"external potential type", "constant"}},
+    {"", "print binary 1.d-4 style 3", {"print binary", "write print xyz"}},
+    {"", "printstat binary", {"printstat binary", "write printstat list"}},
+    {"", "print pdb frame 1.d-4", {"print pdb", "write print xyz"}},
+    {"", "print xyz frame 1.d-4", {"print xyz frame", "write print xyz"}},
+    {"", "print rescalexyz", {"print rescalexyz", "write print xyz rescale"}},
+};
+// clang-format on
+
+}  // namespace treejet

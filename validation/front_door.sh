@@ -1,0 +1,95 @@
+#!/bin/sh
+# The program as a user meets it: exit codes, what is written and what is not. Usage: front_door.sh TREEJET SOURCE_TREE
+set -u
+treejet=$1
+source=$2
+work=$(mktemp -d)
+trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
+is() { [ "$2" = "$3" ] || fail "$1: expected '$3', found '$2'"; }
+
+# expect CODE WHAT COMMAND...: the exit code; output stays in out and err
+expect() {
+  code=$1 what=$2
+  shift 2
+  "$@" >out 2>err
+  is "exit code of $what" $? "$code"
+}
+
+# A short run of the PVP jet: 0.5 ms, rows every 0.1 ms, frames of 12 lines every 0.25 ms.
+pvp=$source/examples/pvp/input.dat
+short() { "$treejet" run "$pvp" --threads 1 --set "final time 5.d-4" --set "print time 1.d-4" --set "print xyz 2.5d-4" --set "print xyz maxnum 12" "$@"; }
+
+expect 0 "a run" short --out a
+is "files of a run" "$(ls a | tr '\n' ' ')" "statdat.dat traj.xyz "
+is "first line of statdat.dat" "$(head -1 a/statdat.dat)" "# t[s] x[cm] yz[cm] n[1] vn[cm/s] vc[cm/s] curn[statC/s] curc[statC/s] rc[cm] rrr[1] lp[cm] angl[degree]"
+is "rows of statdat.dat" "$(grep -vc '^#' a/statdat.dat)" 6
+is "numbers in each row" "$(grep -v '^#' a/statdat.dat | awk '{print NF}' | sort -u)" 12
+is "times of the rows" "$(grep -v '^#' a/statdat.dat | awk '{printf "%.1f ", $1 * 1e4}')" "0.0 1.0 2.0 3.0 4.0 5.0 "
+is "frames of traj.xyz" "$(grep -c '^t = ' a/traj.xyz)" 3
+is "lines of traj.xyz" "$(wc -l <a/traj.xyz | tr -d ' ')" $((3 * 14))
+is "line counts of the frames" "$(awk 'NR % 14 == 1' a/traj.xyz | sort -u)" 12
+is "first frame" "$(sed -n 3,5p a/traj.xyz | tr '\n' ';')" "C 0.02 0 0;C 0 0.001 0;C 0 0 0;"
+is "padding of the first frame" "$(sed -n 3,14p a/traj.xyz | grep -c '^C 0 0 0$')" 10
+grep -q 'x\[cm\]' out || fail "the terminal shows no table"
+grep -q '^done in' out || fail "the terminal shows no summary"
+
+cp a/statdat.dat before
+expect 4 "a run over existing results" short --out a
+cmp -s before a/statdat.dat || fail "existing results were touched"
+grep -q -- --force err || fail "the message does not tell of --force"
+expect 0 "a run with --force" short --out a --force
+cmp -s before a/statdat.dat || fail "the same run gave other numbers"
+
+expect 0 "a quiet run" short --out quiet --quiet
+is "what a quiet run prints" "$(cat out err)" ""
+cmp -s before quiet/statdat.dat || fail "a quiet run gave other numbers"
+
+expect 0 "a run with --set" short --out set --set "external potential 20."
+cmp -s before set/statdat.dat && fail "--set changed nothing"
+
+expect 0 "a run without outputs" "$treejet" run "$source/examples/single-bead/input.dat" --quiet --out none --set "final time 1.d-6" --set "print time 1.d-7"
+is "files of a run that asks for statdat.dat only" "$(ls none)" statdat.dat
+
+sed 's/viscosity/viscosty/' "$pvp" >misspelt.dat
+expect 2 "a misspelt directive" "$treejet" run misspelt.dat --out wrong
+grep -q 'misspelt.dat:[0-9]*:.*viscosity' err || fail "the message does not lead to viscosity: $(cat err)"
+[ -e wrong ] && fail "a wrong deck left something behind"
+expect 2 "a misspelt override" short --out wrong --set "viscosty 3"
+[ -e wrong ] && fail "a wrong override left something behind"
+expect 2 "an unknown option" "$treejet" run "$pvp" --fast
+expect 2 "no command" "$treejet"
+expect 2 "a wrong number of threads" short --out wrong --threads 0
+expect 4 "a deck that is not there" "$treejet" run nowhere.dat
+grep -q nowhere.dat err || fail "the message does not name the deck"
+
+touch file
+expect 4 "a directory that cannot be made" short --out file/below
+grep -q 'file' err || fail "the message does not name the directory"
+if [ "$(id -u)" != 0 ]; then
+  mkdir locked && chmod a-w locked
+  expect 4 "a directory without permission to write" short --out locked
+fi
+[ -w /dev/full ] && mkdir full && ln -s /dev/full full/statdat.dat && expect 4 "a full disk" short --out full --force
+
+# steps a thousand times too large
+expect 3 "a numerical failure" "$treejet" run "$pvp" --out stopped --quiet --set "integrator 2" --set "timestep 1.d-3" --set "final time 5.d-2" --set "print time 1.d-3"
+grep -q 'bead' err && grep -q 'time' err && grep -q 'likely cause' err || fail "the message names no bead, time or cause: $(cat err)"
+[ "$(grep -vc '^#' stopped/statdat.dat)" -ge 1 ] || fail "rows before a numerical failure were lost"
+grep -qi nan stopped/statdat.dat && fail "statdat.dat holds NaN"
+
+expect 0 "check" "$treejet" check "$pvp"
+grep -q 'surface tension' out || fail "check does not tell what is composed"
+is "files left by check" "$(ls | grep -c statdat)" 0
+expect 0 "template" "$treejet" template
+cp out template.dat
+expect 0 "check of the template" "$treejet" check template.dat
+expect 0 "--version" "$treejet" --version
+grep -q '^treejet [0-9]' out || fail "--version shows no version"
+expect 0 "--help" "$treejet" --help
+grep -q 'Exit codes' out || fail "--help does not teach the exit codes"
+
+[ $failures = 0 ] || exit 1

@@ -1,0 +1,50 @@
+#include <catch2/catch.hpp>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+#include "parallel/threads.hpp"
+
+using namespace treejet;
+
+TEST_CASE("Threads: each row is visited once and blocks start at multiples of the block from row 0") {
+  for (int threads : {1, 2, 3, 8}) {
+    std::vector<int> visits(103, 0);
+    const Rows rows{5, 98};
+    for_each_block({threads}, rows, 10, [&](Rows block) {
+      if (threads > 1 && block.first != rows.first && block.first % 10 != 0) throw std::logic_error("border");
+      for (int i = block.first; i < block.last; ++i) ++visits[i];
+    });
+    for (int i = 0; i < 103; ++i) REQUIRE(visits[i] == (i >= 5 && i < 98));
+  }
+}
+
+TEST_CASE("Threads: what one region wrote the next one reads, whichever threads ran them") {
+  // Each pass shifts the values by one row, so every block reads a row that another block wrote a pass
+  // before.
+  const int n = 64, passes = 50;
+  std::vector<double> from(n), to(n);
+  std::iota(from.begin(), from.end(), 0.0);
+  for (int pass = 0; pass < passes; ++pass) {
+    for_each_block({4}, {0, n}, 4, [&](Rows block) {
+      for (int i = block.first; i < block.last; ++i) to[i] = from[(i + 1) % n];
+    });
+    from.swap(to);
+  }
+  for (int i = 0; i < n; ++i) REQUIRE(from[i] == (i + passes) % n);
+}
+
+TEST_CASE("Threads: the caller gets an exception thrown in a block, after all blocks are done") {
+  std::vector<int> visits(40, 0);
+  const auto visit = [&](Rows block) {
+    for (int i = block.first; i < block.last; ++i) ++visits[i];
+    if (block.first == 20) throw std::runtime_error("from row 20");
+  };
+  REQUIRE_THROWS_WITH(for_each_block({4}, {0, 40}, 4, visit), "from row 20");
+  REQUIRE(visits == std::vector<int>(40, 1));
+}
+
+TEST_CASE("Threads: no rows, no call") {
+  for_each_block({4}, {3, 3}, 4, [](Rows) { FAIL("called"); });
+  REQUIRE(available_cores() >= 1);
+}
