@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace treejet {
 
@@ -21,6 +22,20 @@ int usual_order(double accuracy) {
   return std::clamp(static_cast<int>(std::lround(-1.35 * std::log10(accuracy))), 3, 13);
 }
 
+/// The mean of E^2 over the points, the largest hundredth taken as nothing: in a cloud a few close pairs may
+/// hold most of it, and the promise is to hold for a sample without them as well.
+double typical_square(const std::vector<double> (&E)[3]) {
+  std::vector<double> squares;
+  for (std::size_t i = 0; i < E[0].size(); ++i) {
+    const double square = E[0][i] * E[0][i] + E[1][i] * E[1][i] + E[2][i] * E[2][i];
+    if (std::isfinite(square)) squares.push_back(square);
+  }
+  if (squares.empty()) return 0;
+  const auto typical = squares.end() - static_cast<std::ptrdiff_t>(squares.size() / 100);
+  std::nth_element(squares.begin(), typical, squares.end());
+  return std::accumulate(squares.begin(), typical, 0.0) / static_cast<double>(squares.size());
+}
+
 CoulombChoice direct_because(const std::string& reason) {
   CoulombChoice choice;
   choice.reason = reason;
@@ -37,11 +52,7 @@ CoulombSample::CoulombSample(int points, CoulombTree& tree, Threads threads)
 
   // The size of the whole field, from the tree itself: it need not be exact.
   tree.evaluate(tree.leaves_of({0, n_}), {0, n_}, field, threads);
-  for (std::size_t i = 0; i < direct_[0].size(); ++i) {
-    const double square =
-        direct_[0][i] * direct_[0][i] + direct_[1][i] * direct_[1][i] + direct_[2][i] * direct_[2][i];
-    if (std::isfinite(square)) mean_square_ += square / n_;
-  }
+  mean_square_ = typical_square(direct_);
   for (int leaf : leaves_) points_of_leaf_.push_back(tree.points_of(leaf));
   tree.evaluate_directly(leaves_, field, threads);
 }

@@ -29,7 +29,7 @@ class CoulombSample {
 
  private:
   int n_;
-  double mean_square_ = 0;  ///< of the field over all points
+  double mean_square_ = 0;  ///< of the field over all points but the hundredth with the largest
   std::vector<int> leaves_;
   std::vector<std::vector<int>> points_of_leaf_;
   std::vector<double> direct_[3], tried_[3];

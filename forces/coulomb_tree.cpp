@@ -32,7 +32,7 @@ void CoulombTree::arrange(const PointCharges<3>& points, const TreeShape& shape,
   if (shape.block == 0)
     order_.clear();
   else if (!keep_order || !same_cells || shape.block != shape_.block)
-    order_ = space_order(points.r.data(), points.n, shape.leaf, shape.block);
+    order_ = space_order(points.r.data(), points.n, shape.leaf, shape.block, threads);
   shape_ = shape;
   copy_points(points, threads);
   charge_unit_ = 0;

@@ -15,32 +15,34 @@
 namespace treejet {
 namespace {
 
-template <class Isa, int D>
+template <class Isa, int D, class T = double>
 struct DirectBlock {
-  static constexpr int lanes = Isa::lanes, groups = Isa::groups, size = lanes * groups;
-  using Pack = Wide<double, lanes>;
+  static constexpr int lanes = Isa::lanes * static_cast<int>(sizeof(double) / sizeof(T)),
+                       groups = Isa::groups;
+  static constexpr int size = lanes * groups;
+  using Pack = Wide<T, lanes>;
   Pack r[D][groups], e[D][groups];
 
   /// Targets first.. of n.
-  DirectBlock(const double* const* target, int first, int n) {
+  DirectBlock(const T* const* target, int first, int n) {
     for (int k = 0; k < D; ++k)
       for (int g = 0; g < groups; ++g) {
         const int at = first + g * lanes;
-        r[k][g] = load_first<double, lanes>(target[k] + at, n - at);
+        r[k][g] = load_first<T, lanes>(target[k] + at, n - at);
         e[k][g] = Pack{};
       }
   }
 
-  void store(double* const* field, int first, Rows rows) const {
+  void store(T* const* field, int first, Rows rows) const {
     for (int k = 0; k < D; ++k)
       for (int g = 0; g < groups; ++g) {
         const int at = first + g * lanes;
-        store_lanes<double, lanes>(field[k] + at, e[k][g], rows.first - at, rows.last - at);
+        store_lanes<T, lanes>(field[k] + at, e[k][g], rows.first - at, rows.last - at);
       }
   }
 
   /// Adds the field of the sources first <= j < last, the block itself being `own`.
-  void add_range(const double* const* source, const double* q, Rows range, Rows own) {
+  void add_range(const T* const* source, const T* q, Rows range, Rows own) {
     const int begin = range.first > own.first ? range.first : own.first;
     const int end = range.last < own.last ? range.last : own.last;
     const int before = range.last < own.first ? range.last : own.first;
@@ -52,7 +54,7 @@ struct DirectBlock {
 
   /// Adds the field of source j; `self` is its place in the block if it is one of the targets.
   template <bool own>
-  void add(const double* const* source, double q, int j, int self) {
+  void add(const T* const* source, T q, int j, int self) {
 #pragma GCC unroll 8
     for (int g = 0; g < groups; ++g) {
       Pack d[D], d2{};
@@ -61,7 +63,7 @@ struct DirectBlock {
         d2 += d[k] * d[k];
       }
       Pack w = Isa::over_cube(q, d2);
-      if (own) w = count_from<lanes>(g * lanes) == self ? Pack{} : w;
+      if (own) w = count_from<T, lanes>(g * lanes) == self ? Pack{} : w;
       for (int k = 0; k < D; ++k) e[k][g] += w * d[k];
     }
   }

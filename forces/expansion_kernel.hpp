@@ -24,7 +24,7 @@ struct ExpansionKernel {
         const Pack d = load_first<double, lanes>(points.r[e] + first, left) - centre[e];
         d2 += d * d;
       }
-      if (left < lanes) d2 = count_from<lanes>(0) < left ? d2 : Pack{};
+      if (left < lanes) d2 = count_from<double, lanes>(0) < left ? d2 : Pack{};
       largest = d2 > largest ? d2 : largest;
     }
     double d2 = largest[0];

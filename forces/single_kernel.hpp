@@ -7,42 +7,10 @@
 /// chain, where neighbours cancel, this shows as a relative error of the field of 1e-5 (1e5 points) to 1e-4
 /// (1e6 points).
 
-#include "forces/expansions.hpp"
-#include "forces/wide.hpp"
-#include "parallel/rows.hpp"
+#include "forces/direct_kernel.hpp"
 
 namespace treejet {
 namespace {
-
-/// Sources rounded a chunk at a time.
-struct SingleSources {
-  static constexpr int most = 512;
-  float r[3][most], q[most];
-};
-
-template <class Isa>
-struct SingleNear {
-  static constexpr int lanes = 2 * Isa::lanes, groups = 2, size = lanes * groups;
-  using Pack = Wide<float, lanes>;
-  Pack r[3][groups], e[3][groups];
-
-  template <bool own>
-  void add(const SingleSources& source, int j, int self) {
-#pragma GCC unroll 2
-    for (int g = 0; g < groups; ++g) {
-      Pack d[3], d2{};
-      for (int k = 0; k < 3; ++k) {
-        d[k] = r[k][g] - source.r[k][j];
-        d2 += d[k] * d[k];
-      }
-      Pack w = Isa::over_cube(source.q[j], d2);
-      if (own) {
-        for (int l = 0; l < lanes; ++l) w[l] = g * lanes + l == self ? 0.0f : w[l];
-      }
-      for (int k = 0; k < 3; ++k) e[k][g] += w * d[k];
-    }
-  }
-};
 
 /// (p - shift) unit, rounded, for `count` numbers.
 template <class Isa>
@@ -54,41 +22,42 @@ void round_to_single(const double* p, int count, double shift, double unit, floa
   }
 }
 
+/// Points rounded a chunk at a time.
+struct SingleSources {
+  static constexpr int most = 512;
+  float x[3][most], q[most];
+  const float* r[3] = {x[0], x[1], x[2]};
+
+  template <class Isa>
+  void round(const CellPoints& points, int first, int count, const NearUnits& unit) {
+    for (int k = 0; k < 3; ++k)
+      round_to_single<Isa>(points.r[k] + first, count, unit.centre[k], 1 / unit.length, x[k]);
+    round_to_single<Isa>(points.q + first, count, 0, 1 / unit.charge, q);
+  }
+};
+
 template <class Isa>
 void p2p_single(const CellPoints& target, const CellRange* source, int count, const NearUnits& unit,
                 double* const* field) {
-  using Near = SingleNear<Isa>;
-  const double over_length = 1 / unit.length, over_charge = 1 / unit.charge;
-  const double to_field = unit.charge * over_length * over_length;
-  for (int first = 0; first < target.count; first += Near::size) {
-    const int used = target.count - first < Near::size ? target.count - first : Near::size;
-    const int begin = target.first + first;
-    float place[3][Near::size] = {};
-    Near near{};
-    for (int k = 0; k < 3; ++k) {
-      round_to_single<Isa>(target.r[k] + begin, used, unit.centre[k], over_length, place[k]);
-      for (int g = 0; g < Near::groups; ++g)
-        near.r[k][g] = load<float, Near::lanes>(place[k] + g * Near::lanes);
-    }
+  using Block = DirectBlock<Isa, 3, float>;
+  const double to_field = unit.charge / (unit.length * unit.length);
+  for (int first = target.first; first < target.first + target.count; first += Block::size) {
+    const int left = target.first + target.count - first, used = left < Block::size ? left : Block::size;
+    SingleSources rounded;
+    rounded.template round<Isa>(target, first, used, unit);
+    Block block(rounded.r, 0, used);
     for (int s = 0; s < count; ++s)
       for (int from = source[s].first; from < source[s].last; from += SingleSources::most) {
-        const int left = source[s].last - from,
-                  some = left < SingleSources::most ? left : SingleSources::most;
-        SingleSources rounded;
-        for (int k = 0; k < 3; ++k)
-          round_to_single<Isa>(target.r[k] + from, some, unit.centre[k], over_length, rounded.r[k]);
-        round_to_single<Isa>(target.q + from, some, 0, over_charge, rounded.q);
-        for (int j = 0; j < some; ++j) {
-          const int self = from + j - begin;
-          if (self < 0 || self >= used)
-            near.template add<false>(rounded, j, 0);
-          else
-            near.template add<true>(rounded, j, self);
-        }
+        const int rest = source[s].last - from,
+                  some = rest < SingleSources::most ? rest : SingleSources::most;
+        rounded.template round<Isa>(target, from, some, unit);
+        block.add_range(rounded.r, rounded.q, {0, some}, {first - from, first - from + used});
       }
+    float E[3][Block::size];
+    float* const places[3] = {E[0], E[1], E[2]};
+    block.store(places, 0, {0, Block::size});
     for (int k = 0; k < 3; ++k)
-      for (int l = 0; l < used; ++l)
-        field[k][begin + l] = to_field * static_cast<double>(near.e[k][l / Near::lanes][l % Near::lanes]);
+      for (int l = 0; l < used; ++l) field[k][first + l] = to_field * static_cast<double>(E[k][l]);
   }
 }
 

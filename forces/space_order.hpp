@@ -8,10 +8,12 @@
 
 #include <vector>
 
+#include "parallel/threads.hpp"
+
 namespace treejet {
 
 /// The points in the new order, for a tree with leaves of `leaf` points: boxes are cut across their longest
 /// side, at the boundary of the tree's cells. `block` divides `leaf`.
-std::vector<int> space_order(const double* const* r, int n, int leaf, int block);
+std::vector<int> space_order(const double* const* r, int n, int leaf, int block, Threads threads);
 
 }  // namespace treejet

@@ -41,10 +41,11 @@ inline void store_lanes(T* p, Wide<T, W> v, int first, int last) {
   }
 }
 
-/// first, first + 1, first + 2, ...
-template <int W>
-inline Wide<long long, W> count_from(long long first) {
-  Wide<long long, W> v;
+/// first, first + 1, first + 2, ..., in integers as long as a T, so that they compare to registers of T.
+template <class T, int W>
+inline auto count_from(int first) {
+  using Integer = decltype(Wide<T, W>{} < Wide<T, W>{});
+  Integer v{};
   for (int k = 0; k < W; ++k) v[k] = first + k;
   return v;
 }

@@ -73,7 +73,8 @@ TEST_CASE("Every pair of points is near or far exactly once") {
 TEST_CASE("The order in space is a permutation that keeps blocks of the chain together") {
   const PointSet set = random_cloud(1001);
   for (int block : {1, 4, 16}) {
-    const std::vector<int> order = space_order(set.view().r.data(), 1001, 32, block);
+    const std::vector<int> order = space_order(set.view().r.data(), 1001, 32, block, {1});
+    CHECK(space_order(set.view().r.data(), 1001, 32, block, {3}) == order);
     std::vector<int> sorted = order;
     std::sort(sorted.begin(), sorted.end());
     for (int i = 0; i < 1001; ++i) REQUIRE(sorted[static_cast<std::size_t>(i)] == i);
