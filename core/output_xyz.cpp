@@ -1,6 +1,6 @@
 #include "core/output_xyz.hpp"
 
-#include <fmt/format.h>
+#include <fmt/compile.h>
 
 #include <iterator>
 
@@ -18,9 +18,10 @@ void Trajectory<D>::sample(const Jet<D>& jet) {
   for (Eigen::Index i = 0; i < shown; ++i) {
     Vec<3> r = Vec<3>::Zero();
     r.template head<D>() = cm * (i < jet.size() ? position<D>(jet.y, i) : setting_.nozzle.position(jet.t));
-    fmt::format_to(out, "C {:.9g} {:.9g} {:.9g}\n", r[0], r[1], r[2]);
+    fmt::format_to(out, FMT_COMPILE("C {:.9g} {:.9g} {:.9g}\n"), r[0], r[1], r[2]);
   }
-  for (Eigen::Index i = shown; i < setting_.maxnum; ++i) fmt::format_to(out, "C 0 0 0\n");
+  constexpr std::string_view padding = "C 0 0 0\n";
+  for (Eigen::Index i = shown; i < setting_.maxnum; ++i) frame.append(padding);
   file_.write({frame.data(), frame.size()});
 }
 
