@@ -31,7 +31,7 @@ class Relations {
  private:
   void time() {
     const bool adaptive = p_.integrator == Scheme::automatic || p_.integrator == Scheme::dopri5 ||
-                          p_.integrator == Scheme::verner6;
+                          p_.integrator == Scheme::verner6 || p_.integrator == Scheme::ros34pw2;
     const double timestep = p_.timestep.value_or(0);
     error(
         is_given("timestep") && !is_given("tolerance") && adaptive, {"integrator", "timestep"},

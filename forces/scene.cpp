@@ -89,6 +89,7 @@ class Composer {
     const char* why_not = !p_.tolerance                   ? "a fixed timestep has no error to hold"
                           : p_.multirate == Multirate::no ? "multirate no"
                           : p_.cutoff                     ? "cutoff"
+                          : p_.integrator == Scheme::ros34pw2 ? "a scheme that solves for the local terms"
                           : g_.Q == 0                     ? "no Coulomb sum"
                                                           : nullptr;
     note(!why_not, "two rates", "multirate auto", why_not);

@@ -8,6 +8,7 @@
 #include "integrators/embedded.hpp"
 #include "integrators/euler.hpp"
 #include "integrators/heun.hpp"
+#include "integrators/rosenbrock.hpp"
 #include "integrators/runge_kutta4.hpp"
 
 namespace treejet {
@@ -30,6 +31,8 @@ const char* name(Scheme scheme) {
       return "Dormand-Prince 5(4)";
     case Scheme::verner6:
       return "Verner 6(5)";
+    case Scheme::ros34pw2:
+      return "Rosenbrock-W 3(2), local terms implicit";
   }
   return "";
 }
@@ -47,6 +50,8 @@ std::unique_ptr<Stepper<D>> stepper(Scheme scheme) {
       return std::make_unique<EmbeddedRungeKutta<D, DormandPrince5>>();
     case Scheme::verner6:
       return std::make_unique<EmbeddedRungeKutta<D, Verner6>>();
+    case Scheme::ros34pw2:
+      return std::make_unique<Rosenbrock<D>>();
     case Scheme::automatic:
       break;
   }
@@ -60,8 +65,9 @@ std::unique_ptr<StepControl> step_control(const Parameters& p) {
   const double time = scales(p).time;
   if (p.timestep) return std::make_unique<FixedStep>(*p.timestep / time);
   // the control finds its pace within a few steps, whatever the first one
-  return std::make_unique<AdaptiveStep>(1e-6 * p.final_time / time,
-                                        chosen_scheme(p) == Scheme::dopri5 ? 5 : 6);
+  const Scheme scheme = chosen_scheme(p);
+  const int order = scheme == Scheme::ros34pw2 ? 3 : scheme == Scheme::dopri5 ? 5 : 6;
+  return std::make_unique<AdaptiveStep>(1e-6 * p.final_time / time, order);
 }
 
 std::string steps_description(const Parameters& p) {
