@@ -4,9 +4,9 @@
 ///     below_i u_{i-1} + diagonal_i u_i + above_i u_{i+1} = g_i ,      i = 0 ... n-1 ;
 ///
 /// below_0 and above_{n-1} are not looked at. `factor` replaces the blocks by those of the LU factors, with
-/// pivoting inside the diagonal blocks only; so the leading blocks must be well conditioned, as those of 1 - h J
-/// are for a step h that resolves what grows. Work and memory O(n). Source: block Thomas algorithm; e.g. Golub,
-/// Van Loan, "Matrix Computations", 4.5.
+/// pivoting inside the diagonal blocks only; so the leading blocks must be well conditioned, as those of 1 -
+/// h J are for a step h that resolves what grows. Work and memory O(n). Source: block Thomas algorithm; e.g.
+/// Golub, Van Loan, "Matrix Computations", 4.5.
 
 #include <Eigen/LU>
 #include <vector>

@@ -1,5 +1,6 @@
 #pragma once
-/// How the slope of a chain answers to a small change of its state, through the terms that are local and fast.
+/// How the slope of a chain answers to a small change of its state, through the terms that are local and
+/// fast.
 ///
 /// Element i pulls its two beads together with tension T_i, a vector along it. With d = r_i - r_up and
 /// w = v_i - v_up (up: the upper neighbour, for the youngest bead the nozzle, which does not answer)

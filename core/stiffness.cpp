@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/scales.hpp"
@@ -10,7 +11,8 @@ namespace treejet {
 
 namespace {
 
-/// Above this many steps a bead the additive scheme costs less, though it evaluates every term at every stage.
+/// Above this many steps a bead the additive scheme costs less, though it evaluates every term at every
+/// stage.
 constexpr double bound_by_stability = 20;
 
 double fastest_rate(const Parameters& p, const Scales& s) {
@@ -34,7 +36,8 @@ double speed(const Parameters& p, const Scales& s, double drive) {
 
 Stiffness stiffness(const Parameters& p) {
   const Scales s = scales(p);
-  const double charge_density = s.charge / s.mass * p.density_mass, section = s.mass / p.density_mass / s.l_step;
+  const double charge_density = s.charge / s.mass * p.density_mass,
+               section = s.mass / p.density_mass / s.l_step;
   const double field_on_element = groups(p).V * s.mass * s.length / (s.time * s.time) / section;
   const double v = speed(p, s, section * charge_density * charge_density + field_on_element);
   return {fastest_rate(p, s), std::min(s.l_step / std::max(v, p.nozzle_velocity), p.final_time)};
@@ -49,8 +52,9 @@ std::string choice_reason(const Parameters& p) {
   if (p.integrator != Scheme::automatic) return "";
   const Stiffness s = stiffness(p);
   const bool stiff = chosen_scheme(p) == Scheme::kencarp5;
-  return fmt::format("{}: stability would bind an explicit scheme to {:.2g} steps a bead ({:.2g}/s, a bead in {:.2g} s)",
-                     stiff ? "stiff" : "not stiff", s.stable_steps(), s.fastest_rate, s.bead_interval);
+  return fmt::format(
+      "{}: stability would bind an explicit scheme to {:.2g} steps a bead ({:.2g}/s, a bead in {:.2g} s)",
+      stiff ? "stiff" : "not stiff", s.stable_steps(), s.fastest_rate, s.bead_interval);
 }
 
 }  // namespace treejet

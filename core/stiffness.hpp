@@ -1,14 +1,14 @@
 #pragma once
-/// Whether a scene is stiff: whether the step of an explicit scheme would be bound by stability rather than by accuracy.
-/// An estimate from the deck alone, made before the run.
+/// Whether a scene is stiff: whether the step of an explicit scheme would be bound by stability rather than
+/// by accuracy. An estimate from the deck alone, made before the run.
 ///
-/// A chain of elements of length l carries longitudinal waves, damped by relaxation: with omega = 2 / l sqrt(G / rho)
-/// and tau = mu / G its fastest rates solve  lambda^2 + lambda / tau + omega^2 = 0 .  They are fastest in the shortest
-/// elements, l = l_step, at the nozzle. Elastic (omega tau > 1/2), |lambda| = omega; viscous, |lambda| rises up to
-/// 1 / tau.
+/// A chain of elements of length l carries longitudinal waves, damped by relaxation: with omega = 2 / l
+/// sqrt(G / rho) and tau = mu / G its fastest rates solve  lambda^2 + lambda / tau + omega^2 = 0 .  They are
+/// fastest in the shortest elements, l = l_step, at the nozzle. Elastic (omega tau > 1/2), |lambda| = omega;
+/// viscous, |lambda| rises up to 1 / tau.
 ///
-/// Accuracy asks for a few steps a bead. Beads follow each other at l_step / v, where inertia and the Maxwell stress
-/// balance what drives the jet, the repulsion of neighbours and the field on one element:
+/// Accuracy asks for a few steps a bead. Beads follow each other at l_step / v, where inertia and the Maxwell
+/// stress balance what drives the jet, the repulsion of neighbours and the field on one element:
 ///     rho v^2 + mu e / (1 + tau e) = pi a_0^2 rho_q^2 + rho_q l_step V_0 / h ,      e = v / l_step .
 
 #include <string>
@@ -30,8 +30,9 @@ struct Stiffness {
 
 Stiffness stiffness(const Parameters& p);
 
-/// The deck's scheme. Where it leaves the choice: Verner's 6(5) pair, at the event rate of the paper's case 3 the one
-/// with the fewest evaluations for errors of 1e-4 cm; Kennedy and Carpenter's additive one for a stiff scene.
+/// The deck's scheme. Where it leaves the choice: Verner's 6(5) pair, at the event rate of the paper's case 3
+/// the one with the fewest evaluations for errors of 1e-4 cm; Kennedy and Carpenter's additive one for a
+/// stiff scene.
 Scheme chosen_scheme(const Parameters& p);
 
 /// Why, as half a sentence; empty if the deck names the scheme.

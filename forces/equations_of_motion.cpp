@@ -48,7 +48,8 @@ void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const Table<D
 
 /// The strain rate w.t / l = w.d / l^2 has the derivatives  w / l^2 - 2 rate t / l  by d and  t / l  by w.
 template <int D>
-void EquationsOfMotion<D>::differentiate(const Jet<D>& jet, double t, const Table<D>& y, LocalJacobian<D>& J) {
+void EquationsOfMotion<D>::differentiate(const Jet<D>& jet, double t, const Table<D>& y,
+                                         LocalJacobian<D>& J) {
   const int n = static_cast<int>(y.rows());
   set_boundary<D>(chain_, jet, nozzle_, t, y);
   set_elements<D>(chain_, jet, nozzle_, t, y, {0, n});
@@ -60,8 +61,8 @@ void EquationsOfMotion<D>::differentiate(const Jet<D>& jet, double t, const Tabl
     const double inverse = chain_.inverse_length[i], law = stress_law_->by_strain_rate(chain_, i);
     auto& e = J.element[static_cast<std::size_t>(i)];
     e.rate_by_w = law * inverse * tangent;
-    e.rate_by_d = law * inverse *
-                  (inverse * (velocity<D>(y, i) - upper) - 2 * chain_.strain_rate[i] * tangent);
+    e.rate_by_d =
+        law * inverse * (inverse * (velocity<D>(y, i) - upper) - 2 * chain_.strain_rate[i] * tangent);
     e.rate_by_stress = -1;
   }
   for (const auto& term : terms_) term->differentiate(chain_, J);

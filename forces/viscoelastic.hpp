@@ -43,7 +43,8 @@ class Viscoelastic final : public ForceTerm<D> {
     for (int i = 0; i < c.beads; ++i) {
       const Vec<D> t = c.tangent.row(i).matrix().transpose();
       const double stiffness = coefficient_ * c.stress[i] * c.inverse_length[i] * c.inverse_length[i];
-      J.element[i].tension_by_d += stiffness * (Eigen::Matrix<double, D, D>::Identity() - 2 * t * t.transpose());
+      J.element[i].tension_by_d +=
+          stiffness * (Eigen::Matrix<double, D, D>::Identity() - 2 * t * t.transpose());
       J.element[i].tension_by_stress += coefficient_ * c.inverse_length[i] * t;
     }
   }

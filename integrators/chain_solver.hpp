@@ -3,7 +3,8 @@
 ///
 /// Position and stress of a bead answer to velocities only, so both are eliminated by hand:
 ///
-///     u_r = g_r + s u_v ,      u_sigma = p (g_sigma + s rate_by_d . [g_r]) + p s (s rate_by_d + rate_by_w) . [u_v] ,
+///     u_r = g_r + s u_v ,      u_sigma = p (g_sigma + s rate_by_d . [g_r]) + p s (s rate_by_d + rate_by_w) .
+///     [u_v] ,
 ///
 /// [u] = u_i - u_up, p = 1 / (1 - s rate_by_stress). The tension then answers with  tau_i + E_i [u_v]_i , and
 ///
