@@ -40,7 +40,7 @@ Stiffness stiffness(const Parameters& p) {
                section = s.mass / p.density_mass / s.l_step;
   const double field_on_element = groups(p).V * s.mass * s.length / (s.time * s.time) / section;
   const double v = speed(p, s, section * charge_density * charge_density + field_on_element);
-  return {fastest_rate(p, s), std::min(s.l_step / std::max(v, p.nozzle_velocity), p.final_time)};
+  return {fastest_rate(p, s), s.time, std::min(s.l_step / std::max(v, p.nozzle_velocity), p.final_time)};
 }
 
 Scheme chosen_scheme(const Parameters& p) {

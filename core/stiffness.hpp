@@ -19,6 +19,7 @@ namespace treejet {
 
 struct Stiffness {
   double fastest_rate;   ///< |lambda|, 1/s
+  double relaxation;     ///< tau, s
   double bead_interval;  ///< l_step / v, s
 
   /// Steps a bead to which stability binds an explicit scheme.
@@ -26,6 +27,10 @@ struct Stiffness {
     constexpr double reach = 4.5;  // largest stable |lambda| h of the explicit pairs, about
     return fastest_rate * bead_interval / reach;
   }
+
+  /// Stress that relaxes within the interval of beads cannot be continued in time over several of them: PVP
+  /// at two rates runs at G times 10 (interval / tau = 2.7) and breaks down at G times 20.
+  bool relaxes_between_beads() const { return bead_interval > 2 * relaxation; }
 };
 
 Stiffness stiffness(const Parameters& p);

@@ -92,6 +92,7 @@ class Composer {
                           : p_.cutoff                             ? "cutoff"
                           : chosen_scheme(p_) == Scheme::kencarp5 ? "a scheme that solves for the local terms"
                           : g_.Q == 0                             ? "no Coulomb sum"
+                          : stiffness(p_).relaxes_between_beads() ? "stress relaxes within the interval of beads"
                                                                   : nullptr;
     note(!why_not, "two rates", "multirate auto", why_not);
     return !why_not;
