@@ -7,7 +7,7 @@ cd "$(dirname "$0")"
 
 for_building="g++ cmake ninja-build libeigen3-dev libfmt-dev libcli11-dev"
 for_pictures="python3-matplotlib"
-for_tests="catch2"
+for_tests="catch2 libsundials-dev"
 
 log=build/do.log
 

@@ -31,14 +31,14 @@ class Relations {
  private:
   void time() {
     const bool adaptive = p_.integrator == Scheme::automatic || p_.integrator == Scheme::dopri5 ||
-                          p_.integrator == Scheme::verner6;
+                          p_.integrator == Scheme::verner6 || p_.integrator == Scheme::kencarp5;
     const double timestep = p_.timestep.value_or(0);
     error(
         is_given("timestep") && !is_given("tolerance") && adaptive, {"integrator", "timestep"},
-        "timestep needs integrator 1 (euler), 2 (heun) or 3 (rk4); auto, dopri5 and verner6 choose the step "
+        "timestep needs integrator 1 (euler), 2 (heun) or 3 (rk4); auto, dopri5, verner6 and kencarp5 choose the step "
         "themselves and go with tolerance");
     error(is_given("tolerance") && !is_given("timestep") && !adaptive, {"integrator", "tolerance"},
-          "tolerance needs integrator auto, dopri5 or verner6; euler, heun and rk4 go with timestep");
+          "tolerance needs integrator auto, dopri5, verner6 or kencarp5; euler, heun and rk4 go with timestep");
     error(timestep >= p_.final_time, {"timestep", "final time"},
           fmt::format("expected less than final time ({} s)", p_.final_time));
     error(p_.print_time.value_or(0) > p_.final_time, {"print time", "final time"},

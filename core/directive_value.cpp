@@ -27,6 +27,7 @@ constexpr Word<bool> yes_no[] = {{"yes", true}, {"no", false}};
 constexpr Word<Scheme> schemes[] = {
     {"auto", Scheme::automatic}, {"euler", Scheme::euler},   {"heun", Scheme::heun},
     {"rk4", Scheme::rk4},        {"dopri5", Scheme::dopri5}, {"verner6", Scheme::verner6},
+    {"kencarp5", Scheme::kencarp5},
     {"1", Scheme::euler},        {"2", Scheme::heun},        {"3", Scheme::rk4}};
 constexpr Word<EventRule> event_rules[] = {{"located", EventRule::located}, {"step", EventRule::step}};
 constexpr Word<Multirate> multirates[] = {{"auto", Multirate::automatic}, {"no", Multirate::no}};

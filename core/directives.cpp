@@ -37,7 +37,8 @@ const Directive table[] = {
     {.words = "timestep", .member = &P::timestep, .unit = "s", .check = positive,
      .meaning = "fixed time step", .or_else = "tolerance"},
     {.words = "integrator", .member = &P::integrator,
-     .meaning = "1 euler, 2 heun, 3 rk4 with timestep; auto, dopri5, verner6 with tolerance",
+     .meaning = "1 euler, 2 heun, 3 rk4 with timestep; auto, dopri5, verner6, kencarp5 (for stiff "
+                "scenes, also taken by auto) with tolerance",
      .absent = "auto; mandatory with timestep"},
     {.words = "events", .member = &P::events,
      .meaning = "insertion and removal at their exact time (located) or at the end of a step, as JETSPIN does (step)"},

@@ -4,7 +4,10 @@
 /// `jet` tells what is constant within a step: mass and charge of the beads, and whether one is held; its own
 /// t and y are not looked at. `slope` is resized to the shape of y.
 
+#include <stdexcept>
+
 #include "core/jet.hpp"
+#include "core/local_jacobian.hpp"
 
 namespace treejet {
 
@@ -19,6 +22,11 @@ class Motion {
   /// At an accepted point of the solution: a motion that remembers (forces/two_rate_motion.hpp) learns here.
   virtual void at_node(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
     (*this)(jet, t, y, slope);
+  }
+
+  /// The derivative of the local part of the slope, for the schemes that solve for it.
+  virtual void differentiate(const Jet<D>&, double, const Table<D>&, LocalJacobian<D>&) {
+    throw std::logic_error("a motion without a Jacobian");
   }
 
   /// The oldest bead of `jet` is about to be removed; the youngest one has just been released.

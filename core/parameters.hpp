@@ -8,7 +8,7 @@
 
 namespace treejet {
 
-enum class Scheme { automatic, euler, heun, rk4, dopri5, verner6 };
+enum class Scheme { automatic, euler, heun, rk4, dopri5, verner6, kencarp5 };
 enum class EventRule { located, step };
 enum class Multirate { automatic, no };
 enum class Units { cgs, real };

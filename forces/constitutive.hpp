@@ -20,6 +20,7 @@ class Maxwell final : public StressLaw<D> {
     const int i = rows.first, n = rows.size();
     rate.segment(i, n) = c.strain_rate.segment(i, n) - c.stress.segment(i, n);
   }
+  double by_strain_rate(const Chain<D>&, int) const override { return 1; }
 };
 
 template <int D>
@@ -33,6 +34,11 @@ class HerschelBulkley final : public StressLaw<D> {
       const double viscous = strain_rate == 0 ? 0 : yield_ + K_ * std::pow(std::abs(strain_rate), index_);
       rate[i] = std::copysign(viscous, strain_rate) - c.stress[i];
     }
+  }
+  /// Infinite at rest for a fluid that thins with the strain rate: there 1 stands in.
+  double by_strain_rate(const Chain<D>& c, int element) const override {
+    const double slope = K_ * index_ * std::pow(std::abs(c.strain_rate[element]), index_ - 1);
+    return std::isfinite(slope) ? slope : 1;
   }
 
  private:

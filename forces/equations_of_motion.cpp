@@ -46,6 +46,28 @@ void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const Table<D
   });
 }
 
+/// The strain rate w.t / l = w.d / l^2 has the derivatives  w / l^2 - 2 rate t / l  by d and  t / l  by w.
+template <int D>
+void EquationsOfMotion<D>::differentiate(const Jet<D>& jet, double t, const Table<D>& y,
+                                         LocalJacobian<D>& J) {
+  const int n = static_cast<int>(y.rows());
+  set_boundary<D>(chain_, jet, nozzle_, t, y);
+  set_elements<D>(chain_, jet, nozzle_, t, y, {0, n});
+  J.element.assign(static_cast<std::size_t>(n), {});
+  J.inverse_mass = chain_.inverse_mass;
+  for (int i = 0; i < n; ++i) {
+    const Vec<D> upper = i + 1 < n ? velocity<D>(y, i + 1) : nozzle_.velocity(t);
+    const Vec<D> tangent = chain_.tangent.row(i).matrix().transpose();
+    const double inverse = chain_.inverse_length[i], law = stress_law_->by_strain_rate(chain_, i);
+    auto& e = J.element[static_cast<std::size_t>(i)];
+    e.rate_by_w = law * inverse * tangent;
+    e.rate_by_d =
+        law * inverse * (inverse * (velocity<D>(y, i) - upper) - 2 * chain_.strain_rate[i] * tangent);
+    e.rate_by_stress = -1;
+  }
+  for (const auto& term : terms_) term->differentiate(chain_, J);
+}
+
 template <int D>
 void EquationsOfMotion<D>::set_local(const Chain<D>& chain, const Table<D>& y, Rows rows,
                                      Table<D>& slope) const {

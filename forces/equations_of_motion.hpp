@@ -27,6 +27,8 @@ class EquationsOfMotion final : public Motion<D> {
 
   void operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) override;
 
+  void differentiate(const Jet<D>& jet, double t, const Table<D>& y, LocalJacobian<D>& J) override;
+
   /// Everything but the Coulomb force, which couples all beads, for the slopes of `rows`.
   void set_local(const Chain<D>& chain, const Table<D>& y, Rows rows, Table<D>& slope) const;
 

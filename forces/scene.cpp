@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/stiffness.hpp"
 #include "forces/constitutive.hpp"
 #include "forces/coulomb_force.hpp"
 #include "forces/coulomb_request.hpp"
@@ -86,11 +87,13 @@ class Composer {
 
   /// Two rates need an error to hold, and a sum over all pairs to take apart.
   bool two_rates() {
-    const char* why_not = !p_.tolerance                   ? "a fixed timestep has no error to hold"
-                          : p_.multirate == Multirate::no ? "multirate no"
-                          : p_.cutoff                     ? "cutoff"
-                          : g_.Q == 0                     ? "no Coulomb sum"
-                                                          : nullptr;
+    const char* why_not = !p_.tolerance                           ? "a fixed timestep has no error to hold"
+                          : p_.multirate == Multirate::no         ? "multirate no"
+                          : p_.cutoff                             ? "cutoff"
+                          : chosen_scheme(p_) == Scheme::kencarp5 ? "a scheme that solves for the local terms"
+                          : g_.Q == 0                             ? "no Coulomb sum"
+                          : stiffness(p_).relaxes_between_beads() ? "stress relaxes within the interval of beads"
+                                                                  : nullptr;
     note(!why_not, "two rates", "multirate auto", why_not);
     return !why_not;
   }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/chain.hpp"
+#include "core/local_jacobian.hpp"
 #include "parallel/rows.hpp"
 
 namespace treejet {
@@ -23,6 +24,9 @@ class ForceTerm {
   virtual std::string_view name() const = 0;
   virtual void prepare(const Chain<D>&) {}
   virtual void add(const Chain<D>& chain, Rows rows, Acceleration<D>& a) const = 0;
+
+  /// Adds what the term contributes to the tension's answer; nothing if its force is slow or not local.
+  virtual void differentiate(const Chain<D>&, LocalJacobian<D>&) const {}
 };
 
 /// The constitutive equation: the rate of the stress of the elements in `rows`.
@@ -32,6 +36,9 @@ class StressLaw {
   virtual ~StressLaw() = default;
   virtual std::string_view name() const = 0;
   virtual void set(const Chain<D>& chain, Rows rows, Eigen::Ref<Eigen::ArrayXd> rate) const = 0;
+
+  /// The derivative of the rate of stress by the strain rate; that by the stress is -1 in every law here.
+  virtual double by_strain_rate(const Chain<D>& chain, int element) const = 0;
 };
 
 }  // namespace treejet

@@ -38,6 +38,17 @@ class Viscoelastic final : public ForceTerm<D> {
     }
   }
 
+  /// T = C sigma d / l^2:   dT/dd = C sigma / l^2 (1 - 2 t t') ,   dT/dsigma = C t / l .
+  void differentiate(const Chain<D>& c, LocalJacobian<D>& J) const override {
+    for (int i = 0; i < c.beads; ++i) {
+      const Vec<D> t = c.tangent.row(i).matrix().transpose();
+      const double stiffness = coefficient_ * c.stress[i] * c.inverse_length[i] * c.inverse_length[i];
+      J.element[i].tension_by_d +=
+          stiffness * (Eigen::Matrix<double, D, D>::Identity() - 2 * t * t.transpose());
+      J.element[i].tension_by_stress += coefficient_ * c.inverse_length[i] * t;
+    }
+  }
+
  private:
   double coefficient_;
 };

@@ -5,16 +5,13 @@
 #include <stdexcept>
 
 #include "core/scales.hpp"
+#include "integrators/additive.hpp"
 #include "integrators/embedded.hpp"
 #include "integrators/euler.hpp"
 #include "integrators/heun.hpp"
 #include "integrators/runge_kutta4.hpp"
 
 namespace treejet {
-
-Scheme chosen_scheme(const Parameters& p) {
-  return p.integrator == Scheme::automatic ? Scheme::verner6 : p.integrator;
-}
 
 const char* name(Scheme scheme) {
   switch (scheme) {
@@ -30,6 +27,8 @@ const char* name(Scheme scheme) {
       return "Dormand-Prince 5(4)";
     case Scheme::verner6:
       return "Verner 6(5)";
+    case Scheme::kencarp5:
+      return "Kennedy-Carpenter 5(4), local terms implicit";
   }
   return "";
 }
@@ -47,6 +46,8 @@ std::unique_ptr<Stepper<D>> stepper(Scheme scheme) {
       return std::make_unique<EmbeddedRungeKutta<D, DormandPrince5>>();
     case Scheme::verner6:
       return std::make_unique<EmbeddedRungeKutta<D, Verner6>>();
+    case Scheme::kencarp5:
+      return std::make_unique<AdditiveRungeKutta<D, KennedyCarpenter5>>();
     case Scheme::automatic:
       break;
   }
@@ -61,13 +62,15 @@ std::unique_ptr<StepControl> step_control(const Parameters& p) {
   if (p.timestep) return std::make_unique<FixedStep>(*p.timestep / time);
   // the control finds its pace within a few steps, whatever the first one
   return std::make_unique<AdaptiveStep>(1e-6 * p.final_time / time,
-                                        chosen_scheme(p) == Scheme::dopri5 ? 5 : 6);
+                                        chosen_scheme(p) == Scheme::verner6 ? 6 : 5);
 }
 
 std::string steps_description(const Parameters& p) {
   const char* events = p.events == EventRule::located ? "events located" : "events seen at step ends";
   if (p.timestep) return fmt::format("fixed steps of {:g} s, {}", *p.timestep, events);
-  return fmt::format("steps by tolerance {:g}, {}", *p.tolerance, events);
+  const std::string reason = choice_reason(p);
+  return fmt::format("steps by tolerance {:g}, {}{}{}", *p.tolerance, events, reason.empty() ? "" : "; ",
+                     reason);
 }
 
 }  // namespace treejet

@@ -301,7 +301,7 @@ TEST_CASE("Each integrator answers to its number and its name", "[deck]") {
                                                                   {"RK4", Scheme::rk4}})
     CHECK(parse_deck(altered("integrator 2", "integrator " + word), name).parameters.integrator == scheme);
   for (const auto& [word, scheme] : std::map<std::string, Scheme>{
-           {"auto", Scheme::automatic}, {"dopri5", Scheme::dopri5}, {"verner6", Scheme::verner6}})
+           {"auto", Scheme::automatic}, {"dopri5", Scheme::dopri5}, {"verner6", Scheme::verner6}, {"kencarp5", Scheme::kencarp5}})
     CHECK(parse_deck(sound_deck, name, {"tolerance 1.d-6", "integrator " + word}).parameters.integrator ==
           scheme);
 }
