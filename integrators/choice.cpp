@@ -60,9 +60,8 @@ template std::unique_ptr<Stepper<3>> stepper<3>(Scheme);
 std::unique_ptr<StepControl> step_control(const Parameters& p) {
   const double time = scales(p).time;
   if (p.timestep) return std::make_unique<FixedStep>(*p.timestep / time);
-  // the control finds its pace within a few steps, whatever the first one
-  return std::make_unique<AdaptiveStep>(1e-6 * p.final_time / time,
-                                        chosen_scheme(p) == Scheme::verner6 ? 6 : 5);
+  constexpr double first = 1e-4;  // of tau; the control finds its pace within a few steps
+  return std::make_unique<AdaptiveStep>(first, chosen_scheme(p) == Scheme::verner6 ? 6 : 5);
 }
 
 std::string steps_description(const Parameters& p) {
