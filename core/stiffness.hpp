@@ -29,7 +29,7 @@ struct Stiffness {
   }
 
   /// Stress that relaxes within the interval of beads cannot be continued in time over several of them: PVP
-  /// at two rates runs at G times 10 (interval / tau = 2.7) and breaks down at G times 20.
+  /// at two rates runs at G times 10 (interval / tau = 3) and breaks down at G times 20 (6.5).
   bool relaxes_between_beads() const { return bead_interval > 2 * relaxation; }
 };
 

@@ -6,8 +6,9 @@
 /// (core/local_jacobian.hpp), and the rest:   f(t, y) = J (y - y_n) + rest(t, y) .   The linear part goes by
 /// the implicit tableau, diagonal gamma, the rest by the explicit one, with the same weights b:
 ///
-///     (1 - h gamma J) Z_i = h sum_j ( explicit_ij rest_j + implicit_ij J Z_j ) ,   j < i ,   rest_i = f(t +
-///     c_i h, y_n + Z_i) - J Z_i , next = y_n + h sum b_i f_i ,      error = h sum (b_i - b*_i) f_i .
+///     (1 - h gamma J) Z_i = h sum_j ( explicit_ij rest_j + implicit_ij J Z_j ) ,      j < i ,
+///     rest_i = f(t + c_i h, y_n + Z_i) - J Z_i ,
+///     next = y_n + h sum b_i f_i ,      error = h sum (b_i - b*_i) f_i .
 ///
 /// One factorisation and stages - 1 solves of O(n) a step, no iteration. The order holds whatever J is, so
 /// that what is not stiff may be left out of it: the Coulomb sum, surface tension, the motion of the nozzle.
@@ -65,14 +66,9 @@ class AdditiveRungeKutta final : public Stepper<D> {
 struct KennedyCarpenter5 {
   static constexpr int order = 5, stages = 8;
   static constexpr double diagonal = 2. / 9;
-  static constexpr double c[] = {0,
-                                 0.44444444444444442,
-                                 0.75871412497179891,
-                                 0.11526943456404197,
-                                 0.3567571284043185,
-                                 0.71999999999999997,
-                                 0.95499999999999996,
-                                 1};
+  // clang-format off
+  static constexpr double c[] = {0, 0.44444444444444442, 0.75871412497179891, 0.11526943456404197, 0.3567571284043185,
+       0.71999999999999997, 0.95499999999999996, 1};
   static constexpr double explicit_part[stages][stages] = {
       {0},
       {0.44444444444444442},
@@ -98,22 +94,11 @@ struct KennedyCarpenter5 {
        -0.041308613833499437, 0.89718343298596659, 0.22222222222222221},
       {0, 0, 0.17366253573581261, 0.25479166260812353, 0.24190176845094791, 0.30740485830222825,
        -0.19998304731933453, 0.22222222222222221}};
-  static constexpr double b[] = {0,
-                                 0,
-                                 0.17366253573581261,
-                                 0.25479166260812353,
-                                 0.24190176845094791,
-                                 0.30740485830222825,
-                                 -0.19998304731933453,
-                                 0.22222222222222221};
-  static constexpr double partner[] = {0,
-                                       0,
-                                       0.062724216952707135,
-                                       0.25523315714677963,
-                                       0.23902754916001318,
-                                       0.39907952207535802,
-                                       -0.14315725125850667,
-                                       0.18709280592364871};
+  static constexpr double b[] = {0, 0, 0.17366253573581261, 0.25479166260812353, 0.24190176845094791, 0.30740485830222825,
+       -0.19998304731933453, 0.22222222222222221};
+  static constexpr double partner[] = {0, 0, 0.062724216952707135, 0.25523315714677963, 0.23902754916001318, 0.39907952207535802,
+       -0.14315725125850667, 0.18709280592364871};
+  // clang-format on
 };
 
 }  // namespace treejet

@@ -1,16 +1,15 @@
 #pragma once
 /// Solves (1 - s J) u = g for a table u, J the local Jacobian of a chain (core/local_jacobian.hpp).
 ///
-/// Position and stress of a bead answer to velocities only, so both are eliminated by hand:
+/// Position and stress of a bead answer to velocities only, so both are eliminated by hand. With
+/// [u] = u_i - u_up, p = 1 / (1 - s rate_by_stress) and tau_i the tension's answer to the known part,
 ///
-///     u_r = g_r + s u_v ,      u_sigma = p (g_sigma + s rate_by_d . [g_r]) + p s (s rate_by_d + rate_by_w) .
-///     [u_v] ,
+///     u_r = g_r + s u_v ,
+///     u_sigma = p (g_sigma + s rate_by_d . [g_r]) + p s (s rate_by_d + rate_by_w) . [u_v] ,
+///     E_i = s tension_by_d + tension_by_stress (p s (s rate_by_d + rate_by_w))' ,
+///     m_i u_v,i + s E_i [u_v]_i - s E_{i-1} [u_v]_{i-1} = m_i g_v,i - s tau_i + s tau_{i-1} .
 ///
-/// [u] = u_i - u_up, p = 1 / (1 - s rate_by_stress). The tension then answers with  tau_i + E_i [u_v]_i , and
-///
-///     m_i u_v,i + s E_i (u_v,i - u_v,i+1) + s E_{i-1} (u_v,i - u_v,i-1) = m_i g_v,i - s tau_i + s tau_{i-1}
-///
-/// is left, block tridiagonal with D-by-D blocks: a twelfth of the work of 7-by-7 ones in three dimensions.
+/// What is left is block tridiagonal with D-by-D blocks: a twelfth of the work of 7-by-7 ones for D = 3.
 
 #include "core/block_tridiagonal.hpp"
 #include "core/local_jacobian.hpp"

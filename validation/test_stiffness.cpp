@@ -240,8 +240,17 @@ TEST_CASE("Auto takes the additive pair for stiff scenes only, and says why") {
   CHECK(chosen_scheme(pvp(1000, 1, 1e-6, Scheme::dopri5)) == Scheme::dopri5);
   CHECK_THAT(steps_description(stiff), Catch::Contains("stiff"));
   CHECK_THAT(steps_description(plain), Catch::Contains("not stiff"));
-  CHECK(compose<3>(stiff, {1}).two_rates == nullptr);
-  CHECK(compose<3>(plain, {1}).two_rates != nullptr);
+}
+
+TEST_CASE("Two rates are left out of scenes that are solved for, or whose stress relaxes between two beads") {
+  const auto two_rates = [](double modulus) {
+    Parameters p = pvp(modulus, 1, 1e-6);
+    p.multirate = Multirate::automatic;
+    return compose<3>(p, {1}).two_rates != nullptr;
+  };
+  CHECK(two_rates(1));
+  CHECK_FALSE(two_rates(20));    // Verner's pair, but interval / tau = 6.5
+  CHECK_FALSE(two_rates(1000));  // the additive pair
 }
 
 TEST_CASE("The estimate of the fastest rate: relaxation in viscous chains, waves in elastic ones") {
