@@ -56,11 +56,12 @@ class Nozzle {
     return nozzle + l_step_ * (r - nozzle).normalized();
   }
 
-  /// s(d), the fraction of its charge that the held bead shows.
+  /// s(d), the fraction of its charge that the held bead shows while it is held.
   double faded_charge(const Vec<D>& r, double t) const {
     const double d = (r - position(t)).norm() / l_step_;
     if (d <= 1.5) return 0;
-    if (d >= 2.0) return 1;
+    // Goes on smoothly beyond release at 2: a step may reach over the event that ends it, and a kink there would cost the
+    // dense output, hence the event, its order.
     return 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (d - 1.5));
   }
 
