@@ -30,7 +30,10 @@ class Nozzle {
   static constexpr double charge = 1;
 
   explicit Nozzle(const Parameters& p)
-      : inserting_(p.inserting), l_step_(groups(p).L_step), speed_(p.nozzle_velocity / scales(p).velocity) {
+      : inserting_(p.inserting),
+        l_step_(groups(p).L_step),
+        speed_(p.nozzle_velocity / scales(p).velocity),
+        release_waits_(p.events == EventRule::step) {
     if (p.perturb && D == 3) {
       angular_frequency_ = groups(p).K_s;
       amplitude_ = p.perturb_amplitude / scales(p).length;
@@ -60,8 +63,9 @@ class Nozzle {
   double faded_charge(const Vec<D>& r, double t) const {
     const double d = (r - position(t)).norm() / l_step_;
     if (d <= 1.5) return 0;
-    // Goes on smoothly beyond release at 2: a step may reach over the event that ends it, and a kink there would cost the
-    // dense output, hence the event, its order.
+    // A step may reach over the release that ends it; a kink there would cost the dense output, hence the
+    // event, its order. Where release waits for the end of the step the charge waits, too.
+    if (d >= 2.0 && release_waits_) return 1;
     return 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (d - 1.5));
   }
 
@@ -89,6 +93,7 @@ class Nozzle {
 
   bool inserting_;
   double l_step_, speed_;
+  bool release_waits_;
   double angular_frequency_ = 0, amplitude_ = 0;
 };
 
