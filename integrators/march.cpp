@@ -172,7 +172,8 @@ template <int D>
 std::optional<typename March<D>::Due> March<D>::located_event(double reach) {
   const double h = next_.t - now_.t;
   auto due = first_event(Segment<D>(now_, next_), reach);
-  if (due && aims() && due->t < next_.t - dense_fraction * h) {
+  // one that is due at the very beginning ends the step there
+  if (due && aims() && due->t > now_.t && due->t < next_.t - dense_fraction * h) {
     ++effort_.redone;
     step(due->t - now_.t);
     evaluate(next_);
