@@ -33,7 +33,10 @@ class Nozzle {
   static constexpr double charge = 1;
 
   explicit Nozzle(const Parameters& p)
-      : inserting_(p.inserting), l_step_(groups(p).L_step), speed_(p.nozzle_velocity / scales(p).velocity) {
+      : inserting_(p.inserting),
+        l_step_(groups(p).L_step),
+        speed_(p.nozzle_velocity / scales(p).velocity),
+        release_waits_(p.events == EventRule::step) {
     if (p.perturb && D == 3) {
       angular_frequency_ = groups(p).K_s;
       amplitude_ = p.perturb_amplitude / scales(p).length;
@@ -60,11 +63,12 @@ class Nozzle {
   }
 
   /// s(d), the fraction of its charge that the held bead shows. Past d = 2 l_step, where only the step that
-  /// goes beyond a release asks for it, it goes on smoothly: a kink inside that step would make the release
-  /// an event of third order.
+  /// goes beyond a located release asks for it, it goes on smoothly: a kink inside that step would make the
+  /// release an event of third order. Where the release waits for the end of a step, the charge waits at 1.
   double faded_charge(const Vec<D>& r, double t) const {
     const double d = (r - position(t)).norm() / l_step_;
     if (d <= 1.5) return 0;
+    if (d >= 2.0 && release_waits_) return 1;
     return 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (d - 1.5));
   }
 
@@ -107,6 +111,7 @@ class Nozzle {
 
   bool inserting_;
   double l_step_, speed_;
+  bool release_waits_;  ///< for the end of a step
   double angular_frequency_ = 0, amplitude_ = 0;
 };
 

@@ -90,7 +90,7 @@ void TwoRateMotion<D>::at_node(const Jet<D>& jet, double t, const Table<D>& y, T
   Moment<D> now = moment(jet, t, slope);
   if (continues(y.rows())) {
     set_far(now);
-    const double error = mismatch(jet, t, y, now) * since / tolerance_;
+    const double error = mismatch(jet, t, y, now) * since / permitted_error(tolerance_);
     // a slow bead gains this error over and over on its whole way, while most steps err on the youngest bead
     // only
     constexpr double aim = 1e-3, order = 4;

@@ -27,14 +27,19 @@ std::string likely_cause(const Table<D>& before, Eigen::Index bead) {
 }  // namespace
 
 template <int D>
-std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, std::int64_t removed) {
-  if (!std::isfinite(y.sum())) {
-    for (Eigen::Index i = 0; i < y.rows(); ++i) {
-      if (y.row(i).isFinite().all()) continue;
-      return fmt::format("bead {} (number {} since the start) is no longer finite; likely cause: {}", i,
-                         removed + i, likely_cause<D>(before, i));
-    }
+std::optional<std::string> not_finite(const Table<D>& before, const Table<D>& y, std::int64_t removed) {
+  if (std::isfinite(y.sum())) return std::nullopt;
+  for (Eigen::Index i = 0; i < y.rows(); ++i) {
+    if (y.row(i).isFinite().all()) continue;
+    return fmt::format("bead {} (number {} since the start) is no longer finite; likely cause: {}", i,
+                       removed + i, likely_cause<D>(before, i));
   }
+  return std::nullopt;
+}
+
+template <int D>
+std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, std::int64_t removed) {
+  if (auto what = not_finite<D>(before, y, removed)) return what;
   if constexpr (D == 1) {
     for (Eigen::Index i = 0; i + 1 < y.rows(); ++i) {
       if (y(i, 0) > y(i + 1, 0)) continue;
@@ -53,10 +58,19 @@ std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, st
       return fmt::format("beads {} and {} have swapped sides within one step; likely cause: {}", i, i + 1,
                          "the time step is too large, or the beads have met");
     }
+    const Eigen::Index youngest = y.rows() - 1;
+    const bool thrown =
+        y.rows() > 0 && before(youngest, 0) > 0 && y(youngest, 0) < -position<D>(before, youngest).norm();
+    if (thrown) {
+      return fmt::format(
+          "bead {} has been thrown behind the nozzle; likely cause: the time step is too large", youngest);
+    }
   }
   return std::nullopt;
 }
 
+template std::optional<std::string> not_finite<1>(const Table<1>&, const Table<1>&, std::int64_t);
+template std::optional<std::string> not_finite<3>(const Table<3>&, const Table<3>&, std::int64_t);
 template std::optional<std::string> trouble<1>(const Table<1>&, const Table<1>&, std::int64_t);
 template std::optional<std::string> trouble<3>(const Table<3>&, const Table<3>&, std::int64_t);
 

@@ -8,9 +8,13 @@
 
 namespace treejet {
 
-/// Empty if every number of y is finite and the beads are in order: in one dimension along x, in three
-/// without an element that has turned by more than a right angle within the step. Else a sentence that names
-/// the bead and the likely cause. `before` is the last good state, with the same rows.
+/// Empty if every number of y, a state or a slope, is finite; else a sentence that names the bead and the
+/// likely cause. `before` is the last good state, with the same rows.
+template <int D>
+std::optional<std::string> not_finite(const Table<D>& before, const Table<D>& y, std::int64_t removed);
+
+/// The same for a new state, whose beads must be in order, too: in one dimension along x, in three without an
+/// element that has turned by more than a right angle within the step.
 template <int D>
 std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, std::int64_t removed);
 

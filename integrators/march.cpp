@@ -141,9 +141,9 @@ double March<D>::attempt(double end) {
     if (!(now_.t + h > now_.t)) give_up();
     step(h);
     const bool estimated = parts_.stepper.error.rows() > 0;
-    const double error =
-        estimated ? error_norm<D>(parts_.stepper.error, now_.y, parts_.nozzle.l_step()) / parts_.tolerance
-                  : 0;
+    const double error = estimated ? error_norm<D>(parts_.stepper.error, now_.y, parts_.nozzle.l_step()) /
+                                         permitted_error(parts_.tolerance)
+                                   : 0;
     if (!parts_.control.accepts(now_.t, h, error)) {
       ++effort_.rejected;
       continue;
@@ -156,8 +156,11 @@ template <int D>
 void March<D>::to(double end) {
   now_.t = parts_.jet.t;
   now_.y = parts_.jet.y;
-  evaluate(now_);
   for (auto* w : parts_.watchers) w->start(parts_.jet);
+  evaluate(now_);
+  if (auto what = not_finite<D>(now_.y, now_.slope, parts_.jet.removed)) {
+    throw NumericalError(fmt::format("at scaled time {}: {}", now_.t, *what));
+  }
   while (now_.t < end && now_.y.rows() > 0) {
     const double reach = attempt(end);
     if (auto what = trouble<D>(now_.y, next_.y, parts_.jet.removed)) {
@@ -182,7 +185,8 @@ template <int D>
 std::optional<typename March<D>::Due> March<D>::located_event(double reach) {
   const double h = next_.t - now_.t;
   auto due = first_event(Segment<D>(now_, next_), reach);
-  if (due && aims() && due->t < next_.t - dense_fraction * h) {
+  // one that is due at the very beginning ends the step there
+  if (due && aims() && due->t > now_.t && due->t < next_.t - dense_fraction * h) {
     ++effort_.redone;
     step(due->t - now_.t);
     evaluate(next_);

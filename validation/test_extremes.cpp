@@ -50,13 +50,12 @@ TEST_CASE(
     "Under error control two beads at the same place, or one at the nozzle's point charge, stop the run") {
   Run<3> two(with_tolerance(example("pvp"), 1e-6));
   add_bead<3>(two, position<3>(two.jet().y, 0));
-  CHECK_THAT(stop(two, 1e-3), Contains("beads have met"));
+  CHECK_THAT(stop(two, 1e-3), Contains("beads 0 and 1 have met"));
   Run<1> one(with_tolerance(example("straight-jet"), 1e-6));
   one.scene.jet.y(0, 0) = 0;
   CHECK_THAT(stop(one, 1e-3), Contains("at scaled time"));
 }
 
-// The march knows the bead only where the state has become bad, not where the step control gives up.
 TEST_CASE("A step control that gives up names the bead and the likely cause") {
   Run<3> two(with_tolerance(example("pvp"), 1e-6));
   add_bead<3>(two, position<3>(two.jet().y, 0));

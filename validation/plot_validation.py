@@ -1,0 +1,193 @@
+#!/usr/bin/python3
+"""Draws the tables of treejet-validate: work_precision, orders of convergence, time reversal, stable steps.
+
+    validation/plot_validation.py DIR [--out DIR]
+
+Needs python3-matplotlib. A table that is absent is passed over. Exit codes: 0 drawn, 2 arguments, 4 nothing to draw or a
+table that cannot be read.
+"""
+
+import argparse
+import csv
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+COLOURS = {  # one scheme, one colour, in all pictures
+    "Euler": "#999999",
+    "Heun": "#d1495b",
+    "Runge-Kutta 4": "#edae49",
+    "Dormand-Prince 5(4)": "#31688e",
+    "Verner 6(5)": "#35b779",
+}
+OTHER = "#7b3294"
+CASES = {"case 1": "case 1: one bead", "case 2": "case 2: straight jet", "case 3": "case 3: PVP jet"}
+
+
+def scheme_of(name):
+    return name.split(",")[0]
+
+
+def style(name):
+    """Colour by scheme; a dashed line where events are seen at step ends, open marks where two rates are used."""
+    return dict(
+        color=COLOURS.get(scheme_of(name), OTHER),
+        linestyle="--" if "step ends" in name else "-",
+        marker="o",
+        markerfacecolor="white" if "multirate" in name else None,
+        markersize=4,
+        linewidth=1.3,
+        label=name,
+    )
+
+
+def table(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def number(text):
+    return float(text) if text else np.nan
+
+
+def lines(rows, x, y):
+    """{scheme: (x, y)} in the order of the rows."""
+    found = {}
+    for row in rows:
+        found.setdefault(row["scheme"], []).append((number(row[x]), number(row[y])))
+    return {name: np.array(points).T for name, points in found.items()}
+
+
+def draw_lines(panel, rows, x, y, unit_x=1.0):
+    for name, (u, v) in lines(rows, x, y).items():
+        good = np.isfinite(u) & np.isfinite(v) & (v > 0)
+        if good.any():
+            panel.loglog(u[good] * unit_x, v[good], **style(name))
+
+
+def finish(figure, panels, target):
+    entries = {}
+    for panel in panels:
+        panel.grid(True, which="major", color="0.9", linewidth=0.6)
+        panel.spines[["top", "right"]].set_visible(False)
+        for handle, label in zip(*panel.get_legend_handles_labels()):
+            entries.setdefault(label, handle)
+    columns = max(1, int(figure.get_figwidth() / 2.4))
+    room = 0.22 * -(-len(entries) // columns) / figure.get_figheight()
+    figure.get_layout_engine().set(rect=(0, room, 1, 1 - room))
+    figure.legend(entries.values(), entries.keys(), loc="lower center", ncol=columns, frameon=False, fontsize=8)
+    figure.savefig(target, dpi=130)
+    plt.close(figure)
+    print(f"wrote {target}")
+
+
+def guide(panel, text):
+    """A grey line of slope 1 below the curves."""
+    right, top = panel.get_xlim()[1], panel.get_ylim()[0] ** 0.35 * panel.get_ylim()[1] ** 0.65
+    panel.plot([1e-9 * right, right], [1e-9 * top, top], color="0.6", linewidth=0.8, linestyle=":", scalex=False, scaley=False)
+    panel.annotate(text, (0.98, 0.04), xycoords="axes fraction", color="0.4", fontsize=8, ha="right")
+
+
+def draw_work_precision(rows, out):
+    rows = [row for row in rows if "step ends" not in row["scheme"]]
+    cases = [case for case in CASES if any(row["case"] == case for row in rows)]
+    for x, label, name in (
+        ("processor time [s]", "processor time (s)", "error_against_time.png"),
+        ("evaluations", "evaluations of all forces", "error_against_evaluations.png"),
+    ):
+        figure, panels = plt.subplots(1, len(cases), figsize=(4.2 * len(cases), 4.4), squeeze=False, layout="constrained")
+        for case, panel in zip(cases, panels[0]):
+            draw_lines(panel, [row for row in rows if row["case"] == case], x, "error [cm]")
+            panel.set(xlabel=label, title=CASES[case])
+        panels[0, 0].set_ylabel("greatest error of a bead's position (cm)")
+        finish(figure, panels[0], out / name)
+
+
+def draw_convergence(rows, out):
+    """Error against the step, with events located and at step ends; error against the tolerance."""
+    fixed = [row for row in rows if row["timestep [s]"]]
+    adaptive = [row for row in rows if row["tolerance"]]
+    cases = [case for case in CASES if any(row["case"] == case for row in fixed)]
+    figure, panels = plt.subplots(1, len(cases), figsize=(4.2 * len(cases), 4.4), squeeze=False, layout="constrained")
+    for case, panel in zip(cases, panels[0]):
+        draw_lines(panel, [row for row in fixed if row["case"] == case], "timestep [s]", "error [cm]")
+        panel.set(xlabel="time step (s)", title=CASES[case])
+    panels[0, 0].set_ylabel("greatest error of a bead's position (cm)")
+    finish(figure, panels[0], out / "error_against_step.png")
+
+    cases = [case for case in CASES if any(row["case"] == case for row in adaptive)]
+    figure, panels = plt.subplots(1, len(cases), figsize=(4.2 * len(cases), 4.2), squeeze=False, layout="constrained")
+    for case, panel in zip(cases, panels[0]):
+        draw_lines(panel, [row for row in adaptive if row["case"] == case], "tolerance", "error [cm]")
+        guide(panel, "dotted: proportional to the tolerance")
+        panel.set(xlabel="tolerance", title=CASES[case])
+    panels[0, 0].set_ylabel("greatest error of a bead's position (cm)")
+    finish(figure, panels[0], out / "error_against_tolerance.png")
+
+
+def draw_time_reversal(rows, out):
+    figure, panel = plt.subplots(figsize=(5.6, 4.6), layout="constrained")
+    step = [number(row["scaled timestep"]) for row in rows]
+    for name in ("Euler", "Heun", "Runge-Kutta 4"):
+        panel.loglog(step, [number(row[name]) for row in rows], **style(name))
+    panel.set(xlabel="scaled time step", ylabel=r"$|\bar x_{2n} - \bar x_0| / 2n$ (scaled length)",
+              title="case 1 forth to scaled time 5 and back")
+    finish(figure, [panel], out / "time_reversal.png")
+
+
+def draw_stable_steps(rows, out):
+    schemes = [name for name in rows[0] if name.endswith(" [s]") and not name.startswith("relaxation")]
+    place = np.arange(len(rows))
+    width = 0.8 / len(schemes)
+    figure, panel = plt.subplots(figsize=(7.5, 4.4), layout="constrained")
+    for k, column in enumerate(schemes):
+        name = column.removesuffix(" [s]")
+        panel.bar(place + (k - (len(schemes) - 1) / 2) * width, [number(row[column]) for row in rows], width,
+                  color=COLOURS.get(name, OTHER), label=name)
+    relaxation = [number(row["relaxation time [s]"]) for row in rows]
+    panel.hlines(relaxation, place - 0.4, place + 0.4, color="0.2", linewidth=1, label="relaxation time of the fluid")
+    panel.set_axisbelow(True)
+    panel.set_yscale("log")
+    panel.set(ylabel="largest stable time step (s)", title="Case 3 with a stiffer fluid or shorter elements")
+    panel.set_xticks(place, [row["case"].replace("mu", "µ").replace(" x ", " × ") for row in rows])
+    finish(figure, [panel], out / "stable_steps.png")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("tables", metavar="DIR", type=Path, help="where treejet-validate wrote its tables")
+    parser.add_argument("--out", metavar="DIR", type=Path, help="where the pictures go (default: beside the tables)")
+    options = parser.parse_args()
+    out = options.out or options.tables
+    out.mkdir(parents=True, exist_ok=True)
+
+    drawn, complaints = 0, []
+    for name, drawings in (
+        ("time_reversal", [draw_time_reversal]),
+        ("work_precision", [draw_work_precision, draw_convergence]),
+        ("stable_steps", [draw_stable_steps]),
+    ):
+        path = options.tables / f"{name}.csv"
+        if not path.exists():
+            continue
+        try:
+            rows = table(path)
+            for draw in drawings:
+                draw(rows, out)
+                drawn += 1
+        except (OSError, ValueError, KeyError, IndexError) as problem:
+            complaints.append(f"{path}: {type(problem).__name__}: {problem}")
+    if not drawn and not complaints:
+        complaints.append(f"{options.tables}: holds no table of treejet-validate")
+    for complaint in complaints:
+        print(f"plot_validation: {complaint}", file=sys.stderr)
+    return 4 if complaints else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,91 @@
+#include "validation/report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/progress.hpp"
+
+namespace treejet {
+
+namespace {
+
+std::string quoted(std::string text) {
+  std::replace(text.begin(), text.end(), '"', '\'');
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return fmt::format("\"{}\"", text);
+}
+
+std::size_t width(const std::string& column) {
+  return std::max<std::size_t>(column.size(), 11);
+}
+
+}  // namespace
+
+Cell::Cell(double v)
+    : shown(std::isnan(v) ? "-" : fmt::format("{:.4g}", v)),
+      written(std::isfinite(v) ? fmt::format("{}", v) : "") {}
+Cell::Cell(std::int64_t v) : shown(fmt::format("{}", v)), written(shown) {}
+Cell::Cell(const std::string& text) : shown(text), written(quoted(text)) {}
+
+ResultTable::ResultTable(const std::filesystem::path& directory, const std::string& name,
+                         const std::string& title, std::vector<std::string> columns)
+    : columns_(std::move(columns)) {
+  const auto path = directory / (name + ".csv");
+  file_.open(path);
+  file_ << fmt::format("{}\n", fmt::join(columns_, ","));
+  if (!file_) throw FileError(path.string() + ": cannot be written");
+  fmt::print("\n{}\n", title);
+  for (const auto& c : columns_) fmt::print("  {:<{}}", c, width(c));
+  fmt::print("\n");
+}
+
+void ResultTable::row(const std::vector<Cell>& cells) {
+  std::vector<std::string> fields;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    fmt::print("  {:<{}}", cells[k].shown, width(columns_[k]));
+    fields.push_back(cells[k].written);
+  }
+  fmt::print("\n");
+  std::fflush(stdout);
+  file_ << fmt::format("{}\n", fmt::join(fields, ",")) << std::flush;
+}
+
+Report::Report(std::filesystem::path directory, bool quick_study)
+    : quick(quick_study), directory_(std::move(directory)) {
+  std::error_code error;
+  std::filesystem::create_directories(directory_, error);
+  if (error) throw FileError(fmt::format("{}: {}", directory_.string(), error.message()));
+}
+
+ResultTable Report::table(const std::string& name, const std::string& title,
+                          std::vector<std::string> columns) const {
+  return ResultTable(directory_, name, title, std::move(columns));
+}
+
+void Report::check(const std::string& claim, double found, double low, double high) {
+  claims_.push_back({claim, found, low, high});
+}
+
+void Report::progress(const std::string& study, int done, int runs) {
+  const auto now = Clock::now();
+  if (done == 0) begin_ = last_ = now;
+  if (now - last_ < std::chrono::seconds(10)) return;
+  last_ = now;
+  const double since = std::chrono::duration<double>(now - begin_).count();
+  fmt::print(stderr, "{}: {} of {} runs done, about {} left\n", study, done, runs,
+             duration_text(since * (runs - done) / std::max(done, 1)));
+}
+
+int Report::conclude(const std::string& name) const {
+  auto checks = table(name, "Checks", {"verdict", "found", "at least", "at most", "claim"});
+  for (const Claim& c : claims_) {
+    checks.row({std::string(c.holds() ? "holds" : "FAILS"), c.found, c.low, c.high, c.text});
+  }
+  return static_cast<int>(std::count_if(claims_.begin(), claims_.end(), [](auto& c) { return !c.holds(); }));
+}
+
+}  // namespace treejet

@@ -1,0 +1,25 @@
+#pragma once
+/// The studies of treejet-validate. Each prints and writes its tables and adds its claims to the report.
+
+#include "validation/report.hpp"
+
+namespace treejet {
+
+/// Error against work for every scheme on the paper's three cases; orders of convergence over insertions and
+/// removals; error against tolerance.
+void study_work_precision(Report& report);
+
+/// The oldest bead where other programs say it is.
+void study_reference_values(Report& report);
+
+/// The paper's time-reversal test of its three schemes on case 1.
+void study_time_reversal(Report& report);
+
+/// The largest stable step of the explicit schemes where the fluid is stiff, and what then binds the
+/// tolerance.
+void study_stiffness(Report& report);
+
+/// Decks and states at the edge of what can be simulated: a right answer or a clear stop.
+void study_extreme_cases(Report& report);
+
+}  // namespace treejet

@@ -1,0 +1,66 @@
+/// The front door of the validation harness: which study, where its tables go, whether all its claims hold.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "core/error.hpp"
+#include "validation/studies.hpp"
+
+namespace {
+
+constexpr const char* lesson = R"(
+Each study prints tables, writes them to DIR as CSV and draws them with validation/plot_validation.py.
+Exit codes: 0 all claims hold, 1 one does not, 2 arguments, 4 files.)";
+
+int draw(const std::string& directory) {
+  const auto command =
+      fmt::format("/usr/bin/python3 '{}/validation/plot_validation.py' '{}'", TREEJET_SOURCE_DIR, directory);
+  std::fflush(stdout);
+  return std::system(command.c_str());
+}
+
+int run(const std::string& study, const std::string& directory, bool quick) {
+  treejet::Report report(directory, quick);
+  if (study == "time") {
+    treejet::study_time_reversal(report);
+    treejet::study_reference_values(report);
+    treejet::study_work_precision(report);
+  } else {
+    treejet::study_stiffness(report);
+    treejet::study_extreme_cases(report);
+  }
+  const int failures = report.conclude("checks_" + study);
+  if (draw(directory) != 0) fmt::print(stderr, "treejet-validate: the pictures could not be drawn\n");
+  if (failures > 0) fmt::print("\n{} claims do not hold\n", failures);
+  return failures > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Measures how far Treejet's numbers can be trusted", "treejet-validate"};
+  app.require_subcommand(1);
+  app.footer(lesson);
+  std::string directory = "results/validation";
+  bool quick = false;
+  for (const auto& [study, meaning] :
+       {std::pair{"time", "Error against work, orders of convergence, time reversal"},
+        std::pair{"stability", "Largest stable steps, extreme cases"}}) {
+    auto& command = *app.add_subcommand(study, meaning);
+    command.add_option("--out", directory, "directory of tables and pictures, made if missing")
+        ->capture_default_str();
+    command.add_flag("--quick", quick, "fewer and shorter runs: a minute instead of several");
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  }
+  try {
+    return run(app.get_subcommands().front()->get_name(), directory, quick);
+  } catch (const treejet::Error& e) {
+    fmt::print(stderr, "treejet-validate: {}\n", e.what());
+    return e.exit_code();
+  }
+}
