@@ -26,6 +26,12 @@ std::string version_text() {
                      vector_path());
 }
 
+std::string notes(const Deck& deck) {
+  std::string text;
+  for (const auto& note : deck.notes) text += fmt::format("note: {}\n", note);
+  return text;
+}
+
 template <int D>
 void print_summary(const March<D>& march, const Jet<D>& jet, const Outputs<D>& outputs, double seconds) {
   const Effort& e = march.effort();
@@ -49,7 +55,8 @@ void run(const Deck& deck, const Arguments& a) {
   March<D> march({scene.jet, scene.right_hand_side(), *scheme, *control, scene.nozzle, scene.collector,
                   p.events, p.tolerance.value_or(0), outputs.watchers()});
   if (!a.quiet) {
-    fmt::print("{}\n{}\n{}", version_text(), deck.name, composition(scene.composed, scene.left_out));
+    fmt::print("{}\n{}\n{}{}", version_text(), deck.name, notes(deck),
+               composition(scene.composed, scene.left_out));
     fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p), threads_description(threads));
   }
   const auto started = std::chrono::steady_clock::now();
@@ -61,9 +68,8 @@ void run(const Deck& deck, const Arguments& a) {
 template <int D>
 void check(const Deck& deck) {
   const Scene<D> scene = compose<D>(deck.parameters, {1});
-  fmt::print("{}: a complete deck\n", deck.name);
-  for (const auto& note : deck.notes) fmt::print("note: {}\n", note);
-  fmt::print("{}{}", scales_description(deck.parameters), composition(scene.composed, scene.left_out));
+  fmt::print("{}: a complete deck\n{}{}{}", deck.name, notes(deck), scales_description(deck.parameters),
+             composition(scene.composed, scene.left_out));
   fmt::print("{}, {}\n", name(chosen_scheme(deck.parameters)), steps_description(deck.parameters));
 }
 

@@ -33,12 +33,13 @@ class Relations {
     const bool adaptive = p_.integrator == Scheme::automatic || p_.integrator == Scheme::dopri5 ||
                           p_.integrator == Scheme::verner6 || p_.integrator == Scheme::kencarp5;
     const double timestep = p_.timestep.value_or(0);
+    error(is_given("timestep") && !is_given("tolerance") && adaptive, {"integrator", "timestep"},
+          "timestep needs integrator 1 (euler), 2 (heun) or 3 (rk4); auto, dopri5, verner6 and kencarp5 "
+          "choose the step "
+          "themselves and go with tolerance");
     error(
-        is_given("timestep") && !is_given("tolerance") && adaptive, {"integrator", "timestep"},
-        "timestep needs integrator 1 (euler), 2 (heun) or 3 (rk4); auto, dopri5, verner6 and kencarp5 choose the step "
-        "themselves and go with tolerance");
-    error(is_given("tolerance") && !is_given("timestep") && !adaptive, {"integrator", "tolerance"},
-          "tolerance needs integrator auto, dopri5, verner6 or kencarp5; euler, heun and rk4 go with timestep");
+        is_given("tolerance") && !is_given("timestep") && !adaptive, {"integrator", "tolerance"},
+        "tolerance needs integrator auto, dopri5, verner6 or kencarp5; euler, heun and rk4 go with timestep");
     error(timestep >= p_.final_time, {"timestep", "final time"},
           fmt::format("expected less than final time ({} s)", p_.final_time));
     error(p_.print_time.value_or(0) > p_.final_time, {"print time", "final time"},
@@ -47,9 +48,6 @@ class Relations {
 
   void initial_jet() {
     const double length = p_.initial_length, radius = p_.nozzle_cross;
-    if (length < radius)
-      return error(true, {"initial length", "nozzle cross"},
-                   fmt::format("expected at least nozzle cross ({} cm)", radius));
     if (length >= p_.collector_distance)
       return error(true, {"initial length", "collector distance"},
                    fmt::format("expected less than collector distance ({} cm)", p_.collector_distance));
@@ -58,9 +56,11 @@ class Relations {
     if (as_points == as_resolution) return;
     const std::string_view division = as_points ? "points" : "resolution";
     const double l_step = as_points ? length / p_.points.value_or(1) : p_.resolution.value_or(length);
-    error(l_step < radius * (1 - round_off), {division, "initial length", "nozzle cross"},
-          fmt::format("expected elements (here {:.6g} cm) at least as long as nozzle cross ({} cm)", l_step,
-                      radius));
+    note(l_step < radius * (1 - round_off), division,
+         fmt::format(
+             "elements ({:.6g} cm) are shorter than nozzle cross ({} cm); the model takes them for slender, "
+             "and JETSPIN refuses them",
+             l_step, radius));
     error(p_.inserting && p_.collector_distance <= 2 * l_step,
           {"inserting", "collector distance", "initial length", division},
           fmt::format(

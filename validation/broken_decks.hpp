@@ -138,10 +138,7 @@ inline const std::vector<Broken> broken_decks = {
     {"", "nozzle cross section 5.d-3", {"nozzle cross: given twice, first at jet.dat:12"}},
     {"", "systype 3", {"system: given twice, first at jet.dat:2"}},
     // relations
-    {"initial length 0.02", "initial length 0.001", {"initial length 0.001: expected at least nozzle cross (0.005 cm)"}},
     {"initial length 0.02", "initial length 16.", {"initial length 16.: expected less than collector distance (16 cm)"}},
-    {"points 1", "points 5", {"points 5: expected elements (here 0.004 cm) at least as long as nozzle cross (0.005 cm)"}},
-    {"points 1", "resolution 0.004", {"resolution 0.004: expected elements", "nozzle cross"}},
     {"points 1", "resolution 0.007", {"resolution 0.007: expected a divisor of initial length (0.02 cm)", "0.01 or 0.006666666667"}},
     {"points 1", "resolution 0.03", {"resolution 0.03: expected a divisor", "did you mean 0.02?"}},
     {"points 1", "resolution 1.d-12", {"resolution 1.d-12: expected at most 1e+08 elements"}},

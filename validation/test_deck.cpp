@@ -300,8 +300,10 @@ TEST_CASE("Each integrator answers to its number and its name", "[deck]") {
                                                                   {"3", Scheme::rk4},
                                                                   {"RK4", Scheme::rk4}})
     CHECK(parse_deck(altered("integrator 2", "integrator " + word), name).parameters.integrator == scheme);
-  for (const auto& [word, scheme] : std::map<std::string, Scheme>{
-           {"auto", Scheme::automatic}, {"dopri5", Scheme::dopri5}, {"verner6", Scheme::verner6}, {"kencarp5", Scheme::kencarp5}})
+  for (const auto& [word, scheme] : std::map<std::string, Scheme>{{"auto", Scheme::automatic},
+                                                                  {"dopri5", Scheme::dopri5},
+                                                                  {"verner6", Scheme::verner6},
+                                                                  {"kencarp5", Scheme::kencarp5}})
     CHECK(parse_deck(sound_deck, name, {"tolerance 1.d-6", "integrator " + word}).parameters.integrator ==
           scheme);
 }
@@ -390,6 +392,10 @@ TEST_CASE("What has no effect is noted, not refused", "[deck]") {
   const std::vector<std::string> notes = parse_deck(altered("system 3", "system 1"), name).notes;
   REQUIRE(notes.size() == 1);
   CHECK(notes[0].find("surface tension 21.13: no effect in system 1") != std::string::npos);
+  const std::vector<std::string> shorter = parse_deck(altered("points 1", "points 5"), name).notes;
+  REQUIRE(shorter.size() == 1);
+  CHECK(shorter[0].find("points 5: elements (0.004 cm) are shorter than nozzle cross (0.005 cm)") !=
+        std::string::npos);
 }
 
 TEST_CASE("The paper's listings run as printed, or lead to the fix in one step", "[deck]") {
