@@ -100,8 +100,8 @@ class Relations {
           "expected no in system 1: a straight jet does not circle");
     error(p_.perturb && !is_given("perturb freq"), {"perturb"}, "expected perturb freq to be given, too");
     error(p_.perturb && !is_given("perturb ampl"), {"perturb"}, "expected perturb ampl to be given, too");
-    error(p_.perturb && p_.perturb_amplitude >= p_.initial_length, {"perturb ampl", "initial length"},
-          fmt::format("expected less than initial length ({} cm)", p_.initial_length));
+    error(p_.perturb && p_.perturb_amplitude > p_.initial_length, {"perturb ampl", "initial length"},
+          fmt::format("expected at most initial length ({} cm)", p_.initial_length));
     for (const char* detail : {"perturb freq", "perturb ampl"})
       note(!p_.perturb && is_given(detail), detail, "no effect without perturb yes");
     note(p_.system == 1 && p_.surface_tension > 0, "surface tension", "no effect in system 1");

@@ -154,7 +154,7 @@ inline const std::vector<Broken> broken_decks = {
     {"", "hbfluid yes\nhbfluid consistency 2.", {"hbfluid yes: expected hbfluid index"}, "hbfluid yes"},
     {"", "perturb yes\nperturb freq 1.d4", {"perturb yes: expected perturb ampl"}, "perturb yes"},
     {"", "perturb yes\nperturb ampl 1.d-3", {"perturb yes: expected perturb freq"}, "perturb yes"},
-    {"", "perturb yes\nperturb freq 1.d4\nperturb ampl 0.02", {"perturb ampl 0.02: expected less than initial length"}, "perturb ampl 0.02"},
+    {"", "perturb yes\nperturb freq 1.d4\nperturb ampl 0.03", {"perturb ampl 0.03: expected at most initial length"}, "perturb ampl 0.03"},
     {"system 3", "system 1\nperturb yes\nperturb freq 1.d4\nperturb ampl 1.d-3", {"perturb yes: expected no in system 1"}, "perturb yes"},
     // JETSPIN's own
     {"", "cutoff points 1000", {"cutoff points", "length in cm", "write cutoff and that length"}},
