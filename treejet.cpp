@@ -2,21 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <iostream>
 
 #include "core/command_line.hpp"
 #include "core/deck.hpp"
 #include "core/error.hpp"
-#include "core/outputs.hpp"
-#include "core/progress.hpp"
 #include "core/version.hpp"
 #include "forces/coulomb.hpp"
 #include "forces/coulomb_request.hpp"
 #include "forces/field_command.hpp"
 #include "forces/scene_description.hpp"
 #include "integrators/choice.hpp"
-#include "integrators/march.hpp"
+#include "integrators/simulation.hpp"
 
 namespace treejet {
 
@@ -33,36 +30,20 @@ std::string notes(const Deck& deck) {
 }
 
 template <int D>
-void print_summary(const March<D>& march, const Jet<D>& jet, const Outputs<D>& outputs, double seconds) {
-  const Effort& e = march.effort();
-  fmt::print("\ndone in {:.3g} s: {} beads on the jet, {} inserted, {} arrived\n", seconds,
-             jet.size() + jet.held, e.placed, e.removed);
-  fmt::print(
-      "{} evaluations of the forces in {} steps ({} rejected, {} made anew for an event), {:.3g} us each\n",
-      e.evaluations, e.steps, e.rejected, e.redone, 1e6 * seconds / double(e.evaluations));
-  for (const auto& line : outputs.summary()) fmt::print("{}\n", line);
-}
-
-template <int D>
 void run(const Deck& deck, const Arguments& a) {
   const Parameters& p = deck.parameters;
   const Threads threads{a.threads > 0 ? a.threads : available_cores()};
   Scene<D> scene = compose<D>(p, threads);
-  const auto scheme = stepper<D>(chosen_scheme(p));
-  const auto control = step_control(p);
   const auto existing = a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
-  Outputs<D> outputs(p, scene.nozzle, scene.collector, {a.out, existing, a.quiet});
-  March<D> march({scene.jet, scene.right_hand_side(), *scheme, *control, scene.nozzle, scene.collector,
-                  p.events, p.tolerance.value_or(0), outputs.watchers()});
+  Simulation<D> simulation(p, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
+                           {a.out, existing, a.quiet});
   if (!a.quiet) {
     fmt::print("{}\n{}\n{}{}", version_text(), deck.name, notes(deck),
                composition(scene.composed, scene.left_out));
     fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p), threads_description(threads));
   }
-  const auto started = std::chrono::steady_clock::now();
-  march.to(p.final_time / scales(p).time);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  if (!a.quiet) print_summary<D>(march, scene.jet, outputs, seconds);
+  simulation.finish();
+  if (!a.quiet) fmt::print("\n{}", simulation.summary());
 }
 
 template <int D>
