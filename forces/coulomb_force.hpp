@@ -46,6 +46,10 @@ class CoulombForce final : public ForceTerm<D> {
     }
   }
 
+  void visit(Archive& state) {
+    if (solver_) state(*solver_);
+  }
+
   double Q() const { return Q_; }
 
   /// E at the beads, as `add` last computed it.
