@@ -14,8 +14,11 @@ extern "C" void catch_signal(int signal) {
   caught = signal;
 }
 
+/// Unless whoever started us has it ignored: a shell does so with SIGINT for what runs in the background.
 void handle(int signal, void (*handler)(int)) {
   struct sigaction action {};
+  sigaction(signal, nullptr, &action);
+  if (action.sa_handler == SIG_IGN) return;
   action.sa_handler = handler;
   action.sa_flags = SA_RESTART;
   sigaction(signal, &action, nullptr);
