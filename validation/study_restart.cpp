@@ -107,14 +107,15 @@ class Trial {
     for (const char* file : files) whole_.push_back(contents(whole / file));
   }
 
-  /// One life after the other, until a run is complete.
-  void run(Tally& tally, std::mt19937& random) {
+  /// One life after the other, until a run is complete; the last life, after so many kills, is left alone.
+  void run(Tally& tally, std::mt19937& random, std::int64_t most_kills) {
     fs::remove_all(directory_);
     while (true) {
       const bool resumable =
           fs::exists(directory_ / "checkpoint") || fs::exists(directory_ / "checkpoint.old");
       const std::string threads = std::to_string(1 + random() % 3);
-      const double life = std::uniform_real_distribution(0.0, 0.7 * seconds_)(random);
+      const double life =
+          tally.kills < most_kills ? std::uniform_real_distribution(0.0, 0.7 * seconds_)(random) : 600;
       const int code =
           ended(resumable ? started({"--resume", directory_, "--threads", threads})
                           : started(with({"--out", directory_, "--force", "--threads", threads})),
@@ -161,7 +162,7 @@ void study_restart(Report& report) {
   for (const Scene& scene : scenes) {
     Trial trial(scene, report.directory() / "restart");
     Tally tally;
-    while (tally.kills < wanted) trial.run(tally, random);
+    while (tally.kills < wanted) trial.run(tally, random, wanted);
     table.row({std::string(scene.name), tally.kills, tally.unresumable, tally.cut_records, tally.completed,
                tally.differing});
     all.kills += tally.kills;
