@@ -2,21 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <iostream>
 
 #include "core/command_line.hpp"
 #include "core/deck.hpp"
 #include "core/error.hpp"
-#include "core/outputs.hpp"
-#include "core/progress.hpp"
+#include "core/resumption.hpp"
 #include "core/version.hpp"
 #include "forces/coulomb.hpp"
 #include "forces/coulomb_request.hpp"
 #include "forces/field_command.hpp"
 #include "forces/scene_description.hpp"
 #include "integrators/choice.hpp"
-#include "integrators/march.hpp"
+#include "integrators/simulation.hpp"
 
 namespace treejet {
 
@@ -33,36 +31,40 @@ std::string notes(const Deck& deck) {
 }
 
 template <int D>
-void print_summary(const March<D>& march, const Jet<D>& jet, const Outputs<D>& outputs, double seconds) {
-  const Effort& e = march.effort();
-  fmt::print("\ndone in {:.3g} s: {} beads on the jet, {} inserted, {} arrived\n", seconds,
-             jet.size() + jet.held, e.placed, e.removed);
-  fmt::print(
-      "{} evaluations of the forces in {} steps ({} rejected, {} made anew for an event), {:.3g} us each\n",
-      e.evaluations, e.steps, e.rejected, e.redone, 1e6 * seconds / double(e.evaluations));
-  for (const auto& line : outputs.summary()) fmt::print("{}\n", line);
-}
-
-template <int D>
-void run(const Deck& deck, const Arguments& a) {
+int run(const Deck& deck, const Arguments& a, Checkpoint* checkpoint) {
   const Parameters& p = deck.parameters;
   const Threads threads{a.threads > 0 ? a.threads : available_cores()};
+  const std::string directory = checkpoint ? a.resume : a.out;
+  const auto existing = checkpoint ? OutputFile::Existing::resume
+                        : a.force  ? OutputFile::Existing::replace
+                                   : OutputFile::Existing::keep;
+  Interruption interruption({p.checkpoint, a.walltime});
   Scene<D> scene = compose<D>(p, threads);
-  const auto scheme = stepper<D>(chosen_scheme(p));
-  const auto control = step_control(p);
-  const auto existing = a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
-  Outputs<D> outputs(p, scene.nozzle, scene.collector, {a.out, existing, a.quiet});
-  March<D> march({scene.jet, scene.right_hand_side(), *scheme, *control, scene.nozzle, scene.collector,
-                  p.events, p.tolerance.value_or(0), outputs.watchers()});
+  Simulation<D> simulation(
+      deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
+      {{directory, existing, a.quiet}, version_text(), [&] { return interruption.wish(); }});
   if (!a.quiet) {
     fmt::print("{}\n{}\n{}{}", version_text(), deck.name, notes(deck),
                composition(scene.composed, scene.left_out));
     fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p), threads_description(threads));
   }
-  const auto started = std::chrono::steady_clock::now();
-  march.to(p.final_time / scales(p).time);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  if (!a.quiet) print_summary<D>(march, scene.jet, outputs, seconds);
+  if (checkpoint) simulation.resume(*checkpoint);
+  if (!simulation.finish()) {
+    fmt::print(stderr, "treejet: stopped at t = {:.6g} s by {}; to go on: treejet run --resume {}\n",
+               simulation.t(), interruption.reason(), directory);
+    return stopped_early;
+  }
+  if (!a.quiet) fmt::print("\n{}", simulation.summary());
+  return 0;
+}
+
+int resume(const Arguments& a) {
+  Resumption stopped = resumption(a.resume, version_text());
+  for (const auto& w : stopped.warnings) fmt::print(stderr, "treejet: warning: {}\n", w);
+  if (!a.deck.empty()) expect_same(read_deck(a.deck, a.overrides), stopped.deck);
+  const bool straight = stopped.deck.parameters.system == 1;
+  return straight ? run<1>(stopped.deck, a, &stopped.checkpoint)
+                  : run<3>(stopped.deck, a, &stopped.checkpoint);
 }
 
 template <int D>
@@ -81,13 +83,11 @@ int main(const Arguments& a) {
     run({a.points, a.field_out, coulomb_request(a.coulomb), threads, a.repeat, a.compare, a.json}, std::cout);
     return 0;
   }
+  if (!a.resume.empty()) return resume(a);
   const Deck deck = read_deck(a.deck, a.overrides);
   const bool straight = deck.parameters.system == 1;
-  if (a.command == "check") {
-    straight ? check<1>(deck) : check<3>(deck);
-  } else {
-    straight ? run<1>(deck, a) : run<3>(deck, a);
-  }
+  if (a.command == "run") return straight ? run<1>(deck, a, nullptr) : run<3>(deck, a, nullptr);
+  straight ? check<1>(deck) : check<3>(deck);
   return 0;
 }
 

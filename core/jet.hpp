@@ -14,6 +14,7 @@
 
 #include <cstdint>
 
+#include "core/archive.hpp"
 #include "core/vec.hpp"
 
 namespace treejet {
@@ -28,6 +29,8 @@ struct Jet {
       0;  ///< beads that have left at the collector: bead i was the (removed + i)-th inserted
 
   Eigen::Index size() const { return y.rows(); }
+
+  void visit(Archive& state) { state(t, y, mass, charge, held, removed); }
 };
 
 /// Appends a bead above the youngest one.

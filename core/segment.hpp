@@ -17,6 +17,8 @@ template <int D>
 struct Node {
   double t = 0;
   Table<D> y, slope;
+
+  void visit(Archive& state) { state(t, y, slope); }
 };
 
 template <int D>

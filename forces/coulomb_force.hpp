@@ -48,6 +48,10 @@ class CoulombForce final : public ForceTerm<D> {
     }
   }
 
+  void visit(Archive& state) {
+    if (solver_) state(*solver_);
+  }
+
   double Q() const { return Q_; }
 
   /// E at the beads (its first rows), as last computed.

@@ -33,6 +33,8 @@ struct Moment {
   Points field;  ///< E at the beads, of all points
   Points far;    ///< E at the fast beads, of the points that are not near
   Eigen::Array<double, Eigen::Dynamic, D + 1> slope;  ///< acceleration and stress rate
+
+  void visit(Archive& state) { state(t, point, point_charge, field, far, slope); }
 };
 
 template <int D>
@@ -45,6 +47,8 @@ class TwoRateMotion final : public Motion<D> {
   void at_node(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) override;
   void before_removal(const Jet<D>& jet) override;
   void after_release(const Jet<D>& jet) override;
+
+  void visit(Archive& state) override { state(full_, past_, remembered_, interval_, full_evaluations_); }
 
   std::int64_t full_evaluations() const { return full_evaluations_; }
 
