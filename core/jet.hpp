@@ -49,10 +49,9 @@ void append(Jet<D>& jet, const Vec<D>& position, const Vec<D>& velocity, double 
 /// Drops the oldest bead.
 template <int D>
 void drop_first(Jet<D>& jet) {
-  const Eigen::Index left = jet.size() - 1;
-  jet.y = jet.y.bottomRows(left).eval();
-  jet.mass = jet.mass.tail(left).eval();
-  jet.charge = jet.charge.tail(left).eval();
+  drop_first_row(jet.y);
+  drop_first_row(jet.mass);
+  drop_first_row(jet.charge);
   ++jet.removed;
 }
 
