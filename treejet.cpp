@@ -24,31 +24,22 @@ std::string version_text() {
                      vector_path());
 }
 
-std::string notes(const Deck& deck) {
-  std::string text;
-  for (const auto& note : deck.notes) text += fmt::format("note: {}\n", note);
-  return text;
-}
-
 template <int D>
 int run(const Deck& deck, const Arguments& a, Checkpoint* checkpoint) {
   const Parameters& p = deck.parameters;
   const Threads threads{a.threads > 0 ? a.threads : available_cores()};
   const std::string directory = checkpoint ? a.resume : a.out;
-  const auto existing = checkpoint ? OutputFile::Existing::resume
-                        : a.force  ? OutputFile::Existing::replace
-                                   : OutputFile::Existing::keep;
+  const auto existing = a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
   Interruption interruption({p.checkpoint, a.walltime});
   Scene<D> scene = compose<D>(p, threads);
   Simulation<D> simulation(
       deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
-      {{directory, existing, a.quiet}, version_text(), [&] { return interruption.wish(); }});
+      {{directory, existing, a.quiet}, version_text(), [&] { return interruption.wish(); }, checkpoint});
   if (!a.quiet) {
     fmt::print("{}\n{}\n{}{}", version_text(), deck.name, notes(deck),
                composition(scene.composed, scene.left_out));
     fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p), threads_description(threads));
   }
-  if (checkpoint) simulation.resume(*checkpoint);
   if (!simulation.finish()) {
     fmt::print(stderr, "treejet: stopped at t = {:.6g} s by {}; to go on: treejet run --resume {}\n",
                simulation.t(), interruption.reason(), directory);

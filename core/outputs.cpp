@@ -32,10 +32,12 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
     files_.push_back(setting.directory / name);
     return OutputFile(files_.back(), setting.existing);
   };
-  if (!p.print_list.empty() || !p.printstat_list.empty()) {
+  // a run stopped quietly may not have kept the windows of a table
+  const bool table =
+      !p.print_list.empty() && !setting.quiet && (!setting.resumed || setting.resumed->has("rows"));
+  if (table || !p.printstat_list.empty()) {
     auto rows = recorder<D>(p, nozzle, collector);
-    // quiet or not, the windows are the same: a run may be resumed either way
-    rows->add(p.print_list, setting.quiet ? nullptr : std::make_unique<TerminalTable>(p.print_list));
+    rows->add(p.print_list, table ? std::make_unique<TerminalTable>(p.print_list) : nullptr);
     if (!p.printstat_list.empty()) {
       rows->add(p.printstat_list, std::make_unique<StatFile>(file("statdat.dat"), p.printstat_list));
     }

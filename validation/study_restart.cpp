@@ -113,7 +113,7 @@ class Trial {
     while (true) {
       const bool resumable =
           fs::exists(directory_ / "checkpoint") || fs::exists(directory_ / "checkpoint.old");
-      const std::string threads = std::to_string(1 + random() % 3);
+      const std::string threads = std::to_string(1 + random() % 2);
       const double life =
           tally.kills < most_kills ? std::uniform_real_distribution(0.0, 0.7 * seconds_)(random) : 600;
       const int code =
@@ -155,7 +155,7 @@ class Trial {
 void study_restart(Report& report) {
   const int wanted = report.quick ? 4 : 60;  // kills of a scene
   auto table =
-      report.table("restart", "Runs killed (SIGKILL) at random moments and resumed on 1 to 3 threads",
+      report.table("restart", "Runs killed (SIGKILL) at random moments and resumed on 1 or 2 threads",
                    {"scene", "kills", "before a checkpoint", "cut records", "completed", "differing files"});
   std::mt19937 random(std::random_device{}());
   Tally all;
