@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <iostream>
 
 #include "core/command_line.hpp"
@@ -29,21 +30,50 @@ std::string notes(const Deck& deck) {
   return text;
 }
 
+/// "2 ranks, 4 threads each".
+std::string workers_description(const Ranks& ranks, Threads threads) {
+  if (ranks.size() == 1) return threads_description(threads);
+  return fmt::format("{} ranks, each with {}", ranks.size(), threads_description(threads));
+}
+
+/// The threads of each rank; warns where they have too few cores.
+Threads threads(const Arguments& a, const Ranks& ranks) {
+  const Threads threads{a.threads > 0 ? a.threads : ranks.threads_each()};
+  const std::string crowding = ranks.crowding(threads);
+  if (!crowding.empty()) fmt::print(stderr, "treejet: warning: {}\n", crowding);
+  return threads;
+}
+
+/// Ranks that do not do the same arithmetic would drift apart.
+void require_same(const Ranks& ranks, const Deck& deck) {
+  std::string text = deck.text;
+  for (const auto& o : deck.overrides) text += "\n" + o;
+  if (!ranks.agree(version_text()))
+    throw LaunchError(
+        "the ranks differ in program or vectors; TREEJET_VECTOR_PATH=avx2 in the environment of "
+        "all makes the vectors of different processors alike");
+  if (!ranks.agree(text)) throw LaunchError(fmt::format("the ranks have read different decks {}", deck.name));
+}
+
 template <int D>
-void run(const Deck& deck, const Arguments& a) {
+void run(const Deck& deck, const Arguments& a, const Ranks& ranks) {
+  require_same(ranks, deck);
   const Parameters& p = deck.parameters;
-  const Threads threads{a.threads > 0 ? a.threads : available_cores()};
-  Scene<D> scene = compose<D>(p, threads);
+  const Threads each = threads(a, ranks);
+  Scene<D> scene = compose<D>(p, each, ranks);
   const auto existing = a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
   Simulation<D> simulation(p, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
-                           {a.out, existing, a.quiet});
+                           {a.out, existing, a.quiet, !ranks.first()});
   if (!a.quiet) {
     fmt::print("{}\n{}\n{}{}", version_text(), deck.name, notes(deck),
                composition(scene.composed, scene.left_out));
-    fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p), threads_description(threads));
+    fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p),
+               workers_description(ranks, each));
   }
+  const auto started = std::chrono::steady_clock::now();
   simulation.finish();
-  if (!a.quiet) fmt::print("\n{}", simulation.summary());
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  if (!a.quiet) fmt::print("\n{}{}", simulation.summary(), times_description(ranks.times(), seconds));
 }
 
 template <int D>
@@ -54,12 +84,13 @@ void check(const Deck& deck) {
   fmt::print("{}, {}\n", name(chosen_scheme(deck.parameters)), steps_description(deck.parameters));
 }
 
-int main(const Arguments& a) {
+int main(const Arguments& a, const Ranks& ranks) {
   if (a.command == "template") return fmt::print("{}", deck_template()), 0;
   if (a.command == "reference") return fmt::print("{}\n{}", directive_reference(), key_reference()), 0;
   if (a.command == "field") {
-    const int threads = a.threads > 0 ? a.threads : available_cores();
-    run({a.points, a.field_out, coulomb_request(a.coulomb), threads, a.repeat, a.compare, a.json}, std::cout);
+    run({a.points, a.field_out, coulomb_request(a.coulomb), threads(a, ranks), ranks, a.repeat, a.compare,
+         a.json},
+        std::cout);
     return 0;
   }
   const Deck deck = read_deck(a.deck, a.overrides);
@@ -67,7 +98,7 @@ int main(const Arguments& a) {
   if (a.command == "check") {
     straight ? check<1>(deck) : check<3>(deck);
   } else {
-    straight ? run<1>(deck, a) : run<3>(deck, a);
+    straight ? run<1>(deck, a, ranks) : run<3>(deck, a, ranks);
   }
   return 0;
 }
@@ -75,14 +106,19 @@ int main(const Arguments& a) {
 }  // namespace treejet
 
 int main(int argc, char** argv) {
+  treejet::Ranks ranks;
+  const auto fail = [&](int exit_code, const char* what) {
+    return ranks.fail(exit_code, fmt::format("treejet: {}\n", what));
+  };
   try {
-    const auto line = treejet::command_line(argc, argv, treejet::version_text());
-    return line.arguments ? treejet::main(*line.arguments) : line.exit_code;
+    ranks = treejet::join_ranks();
+    const auto arguments = treejet::command_line(argc, argv, treejet::version_text());
+    return arguments ? treejet::main(*arguments, ranks) : 0;
   } catch (const treejet::Error& e) {
-    fmt::print(stderr, "treejet: {}\n", e.what());
-    return e.exit_code();
+    return fail(e.exit_code(), e.what());
+  } catch (const treejet::LaunchError& e) {
+    return fail(2, e.what());
   } catch (const std::exception& e) {
-    fmt::print(stderr, "treejet: {}\n", e.what());
-    return 1;
+    return fail(1, e.what());
   }
 }

@@ -26,6 +26,7 @@ template <int D>
 Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
                     const OutputSetting& setting)
     : maxnum_(p.xyz_maxnum) {
+  if (setting.elsewhere) return;
   const Scales s = scales(p);
   const bool table = !p.print_list.empty() && !setting.quiet;
   const auto file = [&](const char* name) {

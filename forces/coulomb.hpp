@@ -39,6 +39,9 @@ void coulomb_direct(const PointCharges<D>& points, Rows rows, const FieldArrays<
 template <int D>
 void coulomb_direct(const PointCharges<D>& points, Rows rows, const FieldArrays<D>& field, VectorPath path);
 
+/// Shares of rows in whole blocks of this size fill the wide registers.
+constexpr int direct_block = 16;
+
 /// The name of the default path: "avx512", "avx2" or "plain".
 const char* vector_path();
 
