@@ -188,7 +188,7 @@ int Ranks::fail(int exit_code, const std::string& message) const {
     if (!done) {
       std::fputs(message.c_str(), stderr);
       std::fflush(stderr);
-      MPI_Abort(world_->everyone, exit_code);
+      MPI_Abort(MPI_COMM_WORLD, exit_code);
     }
   }
   if (first()) std::fputs(message.c_str(), stderr);
