@@ -181,7 +181,7 @@ def draw_scaling(rows, out):
                 p, value, least, median, greatest = np.array(points).T
                 spread = [value - value * median / greatest, value * median / least - value]
                 panel.errorbar(p, value, spread, marker="o", markersize=4, linewidth=1.3, capsize=2,
-                               color=colours[size], label=f"{size[0]:,} beads, {size[1]}".replace(",", " ", 1))
+                               color=colours[size], label=f"{size[0]} beads, {size[1]}")
             panel.set(xlabel="workers", title=f"workers are {kind}", xticks=workers)
             panel.set_ylim(bottom=0)
             if column == "efficiency":

@@ -122,7 +122,7 @@ class SmallestShare {
 void study_scaling(Report& report) {
   const int cores = physical_cores();
   const std::vector<Size> sizes =
-      report.quick ? std::vector<Size>{{1, false, 300}, {4, false, 60}, {16, true, 20}}
+      report.quick ? std::vector<Size>{{1, false, 200}, {8, true, 10}}
                    : std::vector<Size>{{1, false, 4000}, {2, false, 2000}, {4, false, 1000}, {8, false, 400},
                                        {22, false, 100}, {75, true, 130},  {750, true, 70}};
   const int repeats = report.quick ? 1 : 5;
