@@ -15,7 +15,7 @@
 
 namespace treejet {
 
-enum class Wish { go_on, save, stop };
+enum class Wish { go_on, save, stop };  ///< from weak to strong
 
 class Interruption {
  public:
@@ -27,7 +27,7 @@ class Interruption {
   explicit Interruption(const Setting& setting);
 
   Wish wish();
-  /// "SIGTERM", "walltime": why the last answer was to stop.
+  /// "SIGTERM", "walltime", "a signal to another process": why the run stops.
   std::string reason() const;
 
  private:

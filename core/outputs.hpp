@@ -24,6 +24,7 @@ struct OutputSetting {
   std::filesystem::path directory;
   OutputFile::Existing existing = OutputFile::Existing::keep;
   bool quiet = false;
+  bool elsewhere = false;          ///< another process makes the outputs of this run
   const State* resumed = nullptr;  ///< what to go on from, null for a new run
 };
 

@@ -24,7 +24,9 @@ Simulation<D>::Simulation(const Deck& deck, const Scene& scene, const Setting& s
     : deck_(deck),
       jet_(scene.jet),
       setting_{output_setting(setting.outputs, setting.resumed), setting.program, setting.wish},
-      checkpoints_(setting_.outputs.directory, setting_.outputs.existing),
+      checkpoints_(setting.outputs.elsewhere
+                       ? std::nullopt
+                       : std::optional<Checkpoints>({setting_.outputs.directory, setting_.outputs.existing})),
       stepper_(stepper<D>(chosen_scheme(deck.parameters))),
       control_(step_control(deck.parameters)),
       outputs_(deck.parameters, scene.nozzle, scene.collector, setting_.outputs),
@@ -37,7 +39,7 @@ Simulation<D>::Simulation(const Deck& deck, const Scene& scene, const Setting& s
 template <int D>
 bool Simulation<D>::finish() {
   const bool arrived = march_.to(deck_.parameters.final_time / scales(deck_.parameters).time);
-  if (arrived) checkpoints_.remove();
+  if (arrived && checkpoints_) checkpoints_->remove();
   return arrived;
 }
 
@@ -45,9 +47,10 @@ template <int D>
 bool Simulation<D>::pause() {
   const Wish wish = setting_.wish();
   if (wish == Wish::go_on) return false;
+  if (!checkpoints_) return wish == Wish::stop;
   Checkpoint checkpoint{setting_.program, deck_.name, deck_.text, deck_.overrides, t(), {}};
   visit(checkpoint.state);
-  checkpoints_.write(checkpoint);
+  checkpoints_->write(checkpoint);
   return wish == Wish::stop;
 }
 
