@@ -101,10 +101,10 @@ Case output_often(const char* example, double end, std::vector<std::string> over
 std::vector<Case> cases() {
   const std::string near = "collector distance 0.05";
   const std::vector<std::string> long_jet = {"points 1500", "initial length 30.",
-                                             "collector distance 30.0001", "coulomb auto",
+                                             "collector distance 30.0001", "coulomb tree",
                                              "coulomb accuracy 1.d-2"};
   auto fixed_tree = long_jet, two_rate_tree = long_jet;
-  fixed_tree.insert(fixed_tree.end(), {"coulomb tree space", "integrator 2", "timestep 5.d-8"});
+  fixed_tree.insert(fixed_tree.end(), {"coulomb sorting space", "integrator 2", "timestep 5.d-8"});
   two_rate_tree.insert(two_rate_tree.end(), {"tolerance 1.d-3"});
   return {output_often("pvp", 8e-3, {"collector distance 0.5"}),
           output_often("pvp", 2e-3, {near, "integrator dopri5", "multirate no"}),
@@ -137,7 +137,6 @@ TEST_CASE("A run stopped and resumed at any steps leaves the same bytes as one l
     bool arrived = run(deck, parts.path, after(stop(random)));
     while (!arrived) arrived = resume(parts.path, after(1 + stop(random)), 1 + ++stops % 3);
     CHECK(stops > 3);
-    fmt::print("{} {} {}\n", c.overrides[2], steps, stops);
     for (const char* file : {"statdat.dat", "traj.xyz"})
       CHECK(contents(whole.path / file) == contents(parts.path / file));
     CHECK_FALSE(fs::exists(parts.path / "checkpoint"));
