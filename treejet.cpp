@@ -7,7 +7,7 @@
 #include "core/command_line.hpp"
 #include "core/deck.hpp"
 #include "core/error.hpp"
-#include "core/version.hpp"
+#include "core/provenance.hpp"
 #include "forces/coulomb.hpp"
 #include "forces/coulomb_request.hpp"
 #include "forces/field_command.hpp"
@@ -18,9 +18,7 @@
 namespace treejet {
 
 std::string version_text() {
-  const Version v = version();
-  return fmt::format("treejet {} (git {}), {}, {} build, {} vectors", v.number, v.commit, v.compiler, v.build,
-                     vector_path());
+  return program(provenance({}, vector_path()));
 }
 
 std::string notes(const Deck& deck) {
@@ -36,7 +34,7 @@ void run(const Deck& deck, const Arguments& a) {
   Scene<D> scene = compose<D>(p, threads);
   const auto existing = a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
   Simulation<D> simulation(p, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
-                           {a.out, existing, a.quiet});
+                           {a.out, existing, a.quiet, provenance(deck, vector_path()), {1, threads.count}});
   if (!a.quiet) {
     fmt::print("{}\n{}\n{}{}", version_text(), deck.name, notes(deck),
                composition(scene.composed, scene.left_out));

@@ -126,6 +126,9 @@ const Directive table[] = {
      .meaning = "beads in a frame, from the collector on", .synonyms = "print xyz maxnumber"},
     {.words = "print xyz rescale", .member = &P::xyz_rescale, .check = positive,
      .meaning = "factor on the coordinates, which are in cm"},
+    {.words = "print hdf5", .member = &P::print_hdf5, .unit = "s", .check = positive,
+     .meaning = "interval of the frames of the HDF5 trajectory (H5MD), for all tools that read HDF5 and for ParaView",
+     .absent = "no file"},
 };
 
 const Foreign foreign_table[] = {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/output_hdf5.hpp"
 #include "core/output_table.hpp"
 #include "core/output_xyz.hpp"
 #include "core/progress.hpp"
@@ -20,6 +21,23 @@ std::unique_ptr<Recorder<D>> recorder(const Parameters& p, const Nozzle<D>& nozz
                                     print_interval(p) / s.time, p.final_time / s.time});
 }
 
+/// The rows of traj.h5: the time, and what else `print list` asks for.
+std::vector<std::string> after_time(std::vector<std::string> keys) {
+  keys.insert(keys.begin(), "t");
+  return keys;
+}
+
+/// Closes the record when all else is finished.
+template <int D>
+class RecordKeeper final : public Watcher<D> {
+ public:
+  explicit RecordKeeper(const RunRecord::Setting& setting) : record_(setting) {}
+  void finish(const Jet<D>&) override { record_.complete(); }
+
+ private:
+  RunRecord record_;
+};
+
 }  // namespace
 
 template <int D>
@@ -32,25 +50,49 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
     files_.push_back(setting.directory / name);
     return OutputFile(files_.back(), setting.existing);
   };
-  if (table || !p.printstat_list.empty()) {
+  std::shared_ptr<TrajectoryFile> hdf5;
+  const std::vector<std::string> rows_of_hdf5 = reproducible_keys(p.print_list);
+  if (p.print_hdf5) {
+    files_.push_back(setting.directory / "traj.h5");
+    hdf5 = std::make_shared<TrajectoryFile>(files_.back(), H5md::Content{setting.made_by, rows_of_hdf5},
+                                            setting.existing);
+    files_.push_back(setting.directory / "traj.xdmf");
+  }
+  if (table || !p.printstat_list.empty() || (hdf5 && !rows_of_hdf5.empty())) {
     auto rows = recorder<D>(p, nozzle, collector);
     if (table) rows->add(p.print_list, std::make_unique<TerminalTable>(p.print_list));
     if (!p.printstat_list.empty()) {
-      rows->add(p.printstat_list, std::make_unique<StatFile>(file("statdat.dat"), p.printstat_list));
+      rows->add(p.printstat_list,
+                std::make_unique<StatFile>(file("statdat.dat"), p.printstat_list, setting.made_by));
     }
+    if (hdf5 && !rows_of_hdf5.empty()) rows->add(after_time(rows_of_hdf5), std::make_unique<Hdf5Rows>(hdf5));
     watchers_.push_back(std::move(rows));
   }
   if (p.print_xyz) {
     auto trajectory = std::make_unique<Trajectory<D>>(
-        typename Trajectory<D>::Setting{nozzle, s, *p.print_xyz / s.time, p.xyz_maxnum, p.xyz_rescale},
+        typename Trajectory<D>::Setting{nozzle, s, *p.print_xyz / s.time, p.xyz_maxnum, p.xyz_rescale,
+                                        program(setting.made_by)},
         file("traj.xyz"));
     trajectory_ = trajectory.get();
     watchers_.push_back(std::move(trajectory));
   }
+  if (hdf5) {
+    watchers_.push_back(std::make_unique<Hdf5Trajectory<D>>(
+        typename Hdf5Trajectory<D>::Setting{nozzle, s, p.nozzle_cross, *p.print_hdf5 / s.time}, hdf5));
+  }
+  if (!files_.empty()) keep_record(setting);
   if (!setting.quiet) {
     watchers_.push_back(
         std::make_unique<Progress<D>>(p.final_time / s.time, s.time, stderr_is_interactive()));
   }
+}
+
+template <int D>
+void Outputs<D>::keep_record(const OutputSetting& setting) {
+  RunRecord::Setting record{setting.directory, setting.made_by, {}, setting.circumstances};
+  for (const auto& f : files_) record.files.push_back(f.filename().string());
+  watchers_.push_back(std::make_unique<RecordKeeper<D>>(record));
+  files_.push_back(setting.directory / run_record_name);
 }
 
 template <int D>

@@ -1,6 +1,6 @@
 #pragma once
-/// The watchers that a deck asks for: terminal table, statdat.dat, traj.xyz, progress. What it does not ask
-/// for is not made: no file, no array.
+/// The watchers that a deck asks for: terminal table, statdat.dat, traj.xyz, traj.h5, progress. What it does
+/// not ask for is not made: no file, no array. Beside any files of a run stands the record of it, run.json.
 
 #include <filesystem>
 #include <memory>
@@ -8,6 +8,7 @@
 
 #include "core/output_file.hpp"
 #include "core/parameters.hpp"
+#include "core/run_record.hpp"
 #include "core/watcher.hpp"
 
 namespace treejet {
@@ -22,6 +23,8 @@ struct OutputSetting {
   std::filesystem::path directory;
   OutputFile::Existing existing = OutputFile::Existing::keep;
   bool quiet = false;
+  Provenance made_by = {};
+  Circumstances circumstances = {};
 };
 
 template <int D>
@@ -37,6 +40,8 @@ class Outputs {
   std::vector<std::string> summary() const;
 
  private:
+  void keep_record(const OutputSetting& setting);
+
   std::vector<std::unique_ptr<Watcher<D>>> watchers_;
   std::vector<std::filesystem::path> files_;
   const Trajectory<D>* trajectory_ = nullptr;
