@@ -5,8 +5,10 @@
 #include <iostream>
 
 #include "core/command_line.hpp"
+#include "core/convert.hpp"
 #include "core/deck.hpp"
 #include "core/error.hpp"
+#include "core/file_info.hpp"
 #include "core/provenance.hpp"
 #include "forces/coulomb.hpp"
 #include "forces/coulomb_request.hpp"
@@ -60,6 +62,10 @@ int main(const Arguments& a) {
     run({a.points, a.field_out, coulomb_request(a.coulomb), threads, a.repeat, a.compare, a.json}, std::cout);
     return 0;
   }
+  const auto existing = a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
+  if (a.command == "convert")
+    return fmt::print("{}\n", convert({a.file, a.format, a.converted, existing})), 0;
+  if (a.command == "info") return fmt::print("{}", file_info(a.file)), 0;
   const Deck deck = read_deck(a.deck, a.overrides);
   const bool straight = deck.parameters.system == 1;
   if (a.command == "check") {

@@ -10,12 +10,14 @@
 namespace treejet {
 
 struct Arguments {
-  std::string command;  ///< run, check, field, template, reference
+  std::string command;  ///< run, check, convert, info, field, template, reference
   std::string deck;
   std::vector<std::string> overrides;
   std::string out = ".";
   int threads = 0;  ///< 0: as many as there are cores
   bool quiet = false, force = false;
+
+  std::string file, format, converted;  ///< of convert and info
 
   std::string points, field_out;  ///< of the field command
   CoulombSetting coulomb{.coulomb = CoulombSum::automatic};

@@ -53,8 +53,8 @@ void make_times(Hdf5File& file, const char* group, std::string_view name, std::s
       continue;
     }
     const bool is_time = part == std::string_view("time");
-    file.dataset(own, is_time ? Hdf5File::Number::real : Hdf5File::Number::integer, {0}, {times_a_chunk}, 0);
-    if (is_time) file.attribute(own, "unit", "s");
+    file.dataset(own, {is_time ? Hdf5File::Number::real : Hdf5File::Number::integer, {0}, {times_a_chunk}});
+    if (is_time) file.word_attribute(own, "unit", "s");
   }
 }
 
@@ -75,7 +75,7 @@ void H5md::describe() {
   file_.attribute("/h5md/creator", "name", "treejet");
   file_.attribute("/h5md/creator", "version", content_.made_by.version);
   file_.attribute("/h5md/modules/units", "version", std::vector<int>{1, 0});
-  file_.attribute("/h5md/modules/units", "system", "CGS");
+  file_.word_attribute("/h5md/modules/units", "system", "CGS");
   const Provenance& p = content_.made_by;
   const auto note = [&](const char* name, const std::string& value) {
     file_.text(fmt::format("{}/{}", parameters, name), value);
@@ -95,6 +95,7 @@ void H5md::describe() {
 
 void H5md::make_elements(const Chunk& chunk) {
   using Number = Hdf5File::Number;
+  const auto& [frames, points, compressed] = chunk;
   const std::string box = fmt::format("{}/box", jet);
   file_.group(box);
   file_.attribute(box, "dimension", std::vector<int>{3});
@@ -104,20 +105,20 @@ void H5md::make_elements(const Chunk& chunk) {
     const auto w = static_cast<std::uint64_t>(width);
     const std::string value = element(jet, name, "value");
     if (width == 1)
-      file_.dataset(value, Number::real, {0, 0}, {chunk.frames, chunk.points}, nan);
+      file_.dataset(value, {Number::real, {0, 0}, {frames, points}, nan, compressed});
     else
-      file_.dataset(value, Number::real, {0, 0, w}, {chunk.frames, chunk.points, w}, nan);
-    file_.attribute(value, "unit", unit);
+      file_.dataset(value, {Number::real, {0, 0, w}, {frames, points, w}, nan, compressed});
+    file_.word_attribute(value, "unit", unit);
     make_times(file_, jet, name, first);
   }
-  file_.dataset(element(jet, "id", "value"), Number::integer, {0, 0}, {chunk.frames, chunk.points}, absent);
+  file_.dataset(element(jet, "id", "value"), {Number::integer, {0, 0}, {frames, points}, absent, compressed});
   make_times(file_, jet, "id", first);
 
   file_.group(observables);
   for (const auto& key : content_.keys) {
     const std::string value = element(observables, key, "value"), unit = h5md_unit(key);
-    file_.dataset(value, Number::real, {0}, {times_a_chunk}, nan);
-    if (!unit.empty()) file_.attribute(value, "unit", unit);
+    file_.dataset(value, {Number::real, {0}, {times_a_chunk}, nan});
+    if (!unit.empty()) file_.word_attribute(value, "unit", unit);
     make_times(file_, observables, key, content_.keys[0]);
   }
 }

@@ -29,6 +29,7 @@ class H5md {
   };
   struct Chunk {
     std::uint64_t frames, points;
+    bool compressed;
   };
 
   /// A file without frames.

@@ -69,10 +69,10 @@ class Checker {
   std::string_view object_;
 };
 
-Handle text_type(std::size_t size) {
+Handle text_type(std::size_t size, H5T_cset_t letters = H5T_CSET_UTF8) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type, size);
-  H5Tset_cset(type, H5T_CSET_UTF8);
+  H5Tset_cset(type, letters);
   return type;
 }
 
@@ -140,23 +140,24 @@ void Hdf5File::group(const std::string& name) {
                      H5Gclose);
 }
 
-void Hdf5File::dataset(const std::string& name, Number number, const Extent& extent, const Extent& chunk,
-                       double fill) {
+void Hdf5File::dataset(const std::string& name, const Layout& layout) {
   const Checker check(path_, name);
-  const int rank = static_cast<int>(extent.size());
-  const std::vector<hsize_t> now(extent.begin(), extent.end()), piece(chunk.begin(), chunk.end()),
-      no_limit(extent.size(), H5S_UNLIMITED);
+  const int rank = static_cast<int>(layout.extent.size());
+  const std::vector<hsize_t> now(layout.extent.begin(), layout.extent.end()),
+      chunk(layout.chunk.begin(), layout.chunk.end()), no_limit(now.size(), H5S_UNLIMITED);
   const Handle space(check(H5Screate_simple(rank, now.data(), no_limit.data()), "space"), H5Sclose);
   const Handle content = without_times(H5P_DATASET_CREATE);
-  check(H5Pset_chunk(content, rank, piece.data()), "chunk");
-  check(H5Pset_fill_value(content, H5T_NATIVE_DOUBLE, &fill), "fill value");
-  check(H5Pset_shuffle(content), "shuffle filter");
-  constexpr unsigned level = 4;  // beyond it deflate takes twice the time for a hundredth of the size
-  check(H5Pset_deflate(content, level), "deflate filter");
-  const Handle set(
-      check(H5Dcreate2(file_, name.c_str(), on_disk(number), space, makes_groups(), content, H5P_DEFAULT),
-            "cannot be made"),
-      H5Dclose);
+  check(H5Pset_chunk(content, rank, chunk.data()), "chunk");
+  check(H5Pset_fill_value(content, H5T_NATIVE_DOUBLE, &layout.fill), "fill value");
+  if (layout.compressed) {
+    constexpr unsigned level = 1;  // higher ones gain a hundredth on trajectories
+    check(H5Pset_shuffle(content), "shuffle filter");
+    check(H5Pset_deflate(content, level), "deflate filter");
+  }
+  const Handle set(check(H5Dcreate2(file_, name.c_str(), on_disk(layout.number), space, makes_groups(),
+                                    content, H5P_DEFAULT),
+                         "cannot be made"),
+                   H5Dclose);
 }
 
 void Hdf5File::text(const std::string& name, const std::string& value) {
@@ -213,6 +214,17 @@ void Hdf5File::attribute(const std::string& object, const std::string& name, con
                        "attribute"),
                  H5Aclose);
   check(H5Awrite(a, H5T_NATIVE_INT, values.data()), "attribute");
+}
+
+void Hdf5File::word_attribute(const std::string& object, const std::string& name, const std::string& value) {
+  const Checker check(path_, object);
+  const Handle type = text_type(H5T_VARIABLE, H5T_CSET_ASCII), space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle a(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+                                         H5P_DEFAULT, H5P_DEFAULT),
+                       "attribute"),
+                 H5Aclose);
+  const char* const begin = value.c_str();
+  check(H5Awrite(a, type, &begin), "attribute");
 }
 
 bool Hdf5File::has(const std::string& name) const {

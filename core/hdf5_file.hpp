@@ -2,10 +2,10 @@
 /// An HDF5 file: the only place that knows the HDF5 library.
 ///
 /// Objects are named by their full path, "/particles/jet/position/value". Datasets hold doubles or 64-bit
-/// integers, are chunked, shuffled and deflated, and may grow in every dimension. Nothing in a file depends
-/// on clock or user (objects carry no times), so the same calls make the same bytes. Files are of the oldest
-/// format, which every tool reads and which, unlike the newer ones, has no mark "open for writing" that would
-/// lock out readers after a death of the program. They are consistent once closed, not before:
+/// integers, are chunked, may be shuffled and deflated, and may grow in every dimension. Nothing in a file
+/// depends on clock or user (objects carry no times), so the same calls make the same bytes. Files are of the
+/// oldest format, which every tool reads and which, unlike the newer ones, has no mark "open for writing"
+/// that would lock out readers after a death of the program. They are consistent once closed, not before:
 /// core/trajectory_file.hpp says how a run lives with that.
 ///
 /// Errors are FileErrors that name file and object, with the reason of the system if there is one. HDF5's own
@@ -25,6 +25,12 @@ class Hdf5File {
  public:
   enum class Access { create, append, read };
   enum class Number { real, integer };
+  struct Layout {
+    Number number = Number::real;
+    Extent extent, chunk;
+    double fill = 0;
+    bool compressed = true;
+  };
 
   Hdf5File(std::filesystem::path path, Access access);
   /// Of what has not been closed by then nothing is promised.
@@ -39,14 +45,15 @@ class Hdf5File {
 
   /// Each makes the groups above it.
   void group(const std::string& name);
-  void dataset(const std::string& name, Number number, const Extent& extent, const Extent& chunk,
-               double fill);
+  void dataset(const std::string& name, const Layout& layout);
   void text(const std::string& name, const std::string& value);
   /// A second name of an object.
   void link(const std::string& existing, const std::string& name);
 
   void attribute(const std::string& object, const std::string& name, const std::string& value);
   void attribute(const std::string& object, const std::string& name, const std::vector<std::string>& values);
+  /// As a string of variable length, which h5py and H5MD's readers take for text rather than for bytes.
+  void word_attribute(const std::string& object, const std::string& name, const std::string& value);
   void attribute(const std::string& object, const std::string& name, const std::vector<int>& values);
 
   bool has(const std::string& name) const;

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// While it grows a frame is a chunk, so that none is ever compressed twice.
-constexpr H5md::Chunk growing{1, 256};
+/// While it grows a frame is a chunk, and not compressed: it is written twice, and a third time in the end.
+constexpr H5md::Chunk growing{1, 256, /*compressed*/ false};
 constexpr std::size_t most_pending = 256;  ///< frames in memory
 constexpr int flush_share = 50;            ///< a flush takes at most this part of the time
 
@@ -37,7 +37,8 @@ bool in_use(const fs::path& path) {
 H5md::Chunk final_chunk(const H5md& file) {
   constexpr std::uint64_t values = 8192;
   const auto points = std::clamp<std::uint64_t>(file.points(), 1, values);
-  return {std::clamp<std::uint64_t>(values / points, 1, std::max<std::uint64_t>(file.frames(), 1)), points};
+  return {std::clamp<std::uint64_t>(values / points, 1, std::max<std::uint64_t>(file.frames(), 1)), points,
+          true};
 }
 
 /// Appends the first so many frames and rows of one file to another, whole chunks at a time.

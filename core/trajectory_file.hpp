@@ -8,9 +8,9 @@
 /// a reader still holds the old file, it keeps it, and a copy becomes the twin.
 ///
 /// The same bytes for the same frames, whenever it was flushed, interrupted or resumed: `finish` rewrites all
-/// in one pass, with chunks of many frames, and that is the file a completed run leaves. Until then a frame
-/// is a chunk, and a flush is due when fifty times its own duration has passed, at a checkpoint, and at the
-/// end.
+/// in one pass, with compressed chunks of many frames, and that is the file a completed run leaves. Until
+/// then a frame is a chunk, and a flush is due when fifty times its own duration has passed, at a checkpoint,
+/// and at the end.
 ///
 /// Errors: FileError; what was flushed before stays.
 
