@@ -129,6 +129,9 @@ const Directive table[] = {
     {.words = "print hdf5", .member = &P::print_hdf5, .unit = "s", .check = positive,
      .meaning = "interval of the frames of the HDF5 trajectory (H5MD), for all tools that read HDF5 and for ParaView",
      .absent = "no file"},
+    {.words = "checkpoint", .member = &P::checkpoint, .unit = "s", .check = positive,
+     .meaning = "wall-clock time between checkpoints, from which `treejet run --resume` continues",
+     .absent = "one when a signal or --walltime stops the run"},
 };
 
 const Foreign foreign_table[] = {

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <vector>
 
+#include "core/checkpoint.hpp"
 #include "core/error.hpp"
 #include "core/h5md.hpp"
 #include "core/observable_keys.hpp"
@@ -38,6 +39,13 @@ std::string trajectory(const fs::path& path) {
   text += fmt::format("\npoints  {}\n", fmt::join(columns, ", "));
   text += fmt::format("observables  {} rows of: {}\n", rows, fmt::join(file.content().keys, " "));
   return text + description(file.content().made_by);
+}
+
+std::string checkpoint(const fs::path& path) {
+  const Checkpoint c = read_checkpoint(path);
+  std::string text = fmt::format("checkpoint at t = {:.10g} s; to go on: treejet run --resume {}\n{}\n", c.t,
+                                 path.has_parent_path() ? path.parent_path().string() : ".", c.program);
+  return text + deck_description(c.deck_name, c.deck_text, c.overrides);
 }
 
 bool is_key_with_unit(const std::string& word) {
@@ -142,6 +150,7 @@ std::string text_file(const fs::path& path) {
   std::getline(file, second);
   std::getline(file, third);
   if (line.starts_with("{")) return run_record_text(path);
+  if (line.starts_with("treejet checkpoint")) return checkpoint(path);
   if (line.starts_with("# ")) {
     const auto columns = labels(line);
     if (!columns.empty() && std::all_of(columns.begin(), columns.end(), is_key_with_unit))

@@ -28,6 +28,14 @@ class Hdf5Trajectory final : public Sampling<D> {
     file_->finish();
   }
 
+  void visit(Archive& state) override {
+    Sampling<D>::visit(state);
+    if (!state.reading()) file_->sync();
+    std::uint64_t frames = file_->frames(), rows = file_->rows();
+    state(frames, rows);
+    if (state.reading()) file_->continue_from(frames, rows);
+  }
+
  protected:
   void sample(const Jet<D>& jet) override {
     file_->append(frame<D>(jet, setting_.nozzle, setting_.scales, setting_.nozzle_radius));

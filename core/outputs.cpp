@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/checkpoint.hpp"
 #include "core/output_hdf5.hpp"
 #include "core/output_table.hpp"
 #include "core/output_xyz.hpp"
@@ -45,28 +46,22 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
                     const OutputSetting& setting)
     : maxnum_(p.xyz_maxnum) {
   const Scales s = scales(p);
-  const bool table = !p.print_list.empty() && !setting.quiet;
   const auto file = [&](const char* name) {
     files_.push_back(setting.directory / name);
     return OutputFile(files_.back(), setting.existing);
   };
-  std::shared_ptr<TrajectoryFile> hdf5;
-  const std::vector<std::string> rows_of_hdf5 = reproducible_keys(p.print_list);
-  if (p.print_hdf5) {
-    files_.push_back(setting.directory / "traj.h5");
-    hdf5 = std::make_shared<TrajectoryFile>(files_.back(), H5md::Content{setting.made_by, rows_of_hdf5},
-                                            setting.existing);
-    files_.push_back(setting.directory / "traj.xdmf");
-  }
-  if (table || !p.printstat_list.empty() || (hdf5 && !rows_of_hdf5.empty())) {
+  const std::shared_ptr<TrajectoryFile> hdf5 = p.print_hdf5 ? trajectory_file(p, setting) : nullptr;
+  if (!p.print_list.empty() || !p.printstat_list.empty()) {
     auto rows = recorder<D>(p, nozzle, collector);
-    if (table) rows->add(p.print_list, std::make_unique<TerminalTable>(p.print_list));
+    // quiet or not, the windows are the same: a run may be resumed either way
+    rows->add(p.print_list, setting.quiet ? nullptr : std::make_unique<TerminalTable>(p.print_list));
     if (!p.printstat_list.empty()) {
       rows->add(p.printstat_list,
                 std::make_unique<StatFile>(file("statdat.dat"), p.printstat_list, setting.made_by));
     }
-    if (hdf5 && !rows_of_hdf5.empty()) rows->add(after_time(rows_of_hdf5), std::make_unique<Hdf5Rows>(hdf5));
-    watchers_.push_back(std::move(rows));
+    const std::vector<std::string> observables = reproducible_keys(p.print_list);
+    if (hdf5 && !observables.empty()) rows->add(after_time(observables), std::make_unique<Hdf5Rows>(hdf5));
+    watchers_.push_back({"rows", std::move(rows)});
   }
   if (p.print_xyz) {
     auto trajectory = std::make_unique<Trajectory<D>>(
@@ -74,24 +69,34 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
                                         program(setting.made_by)},
         file("traj.xyz"));
     trajectory_ = trajectory.get();
-    watchers_.push_back(std::move(trajectory));
+    watchers_.push_back({"traj.xyz", std::move(trajectory)});
   }
   if (hdf5) {
-    watchers_.push_back(std::make_unique<Hdf5Trajectory<D>>(
-        typename Hdf5Trajectory<D>::Setting{nozzle, s, p.nozzle_cross, *p.print_hdf5 / s.time}, hdf5));
+    using Frames = Hdf5Trajectory<D>;
+    const typename Frames::Setting frames{nozzle, s, p.nozzle_cross, *p.print_hdf5 / s.time};
+    watchers_.push_back({"traj.h5", std::make_unique<Frames>(frames, hdf5)});
   }
   if (!files_.empty()) keep_record(setting);
   if (!setting.quiet) {
     watchers_.push_back(
-        std::make_unique<Progress<D>>(p.final_time / s.time, s.time, stderr_is_interactive()));
+        {"progress", std::make_unique<Progress<D>>(p.final_time / s.time, s.time, stderr_is_interactive())});
   }
 }
 
 template <int D>
+std::shared_ptr<TrajectoryFile> Outputs<D>::trajectory_file(const Parameters& p,
+                                                            const OutputSetting& setting) {
+  const auto path = setting.directory / "traj.h5";
+  files_.insert(files_.end(), {path, setting.directory / "traj.xdmf"});
+  return std::make_shared<TrajectoryFile>(
+      path, H5md::Content{setting.made_by, reproducible_keys(p.print_list)}, setting.existing);
+}
+
+template <int D>
 void Outputs<D>::keep_record(const OutputSetting& setting) {
-  RunRecord::Setting record{setting.directory, setting.made_by, {}, setting.circumstances};
+  RunRecord::Setting record{setting.directory, setting.made_by, {}, setting.circumstances, setting.existing};
   for (const auto& f : files_) record.files.push_back(f.filename().string());
-  watchers_.push_back(std::make_unique<RecordKeeper<D>>(record));
+  watchers_.push_back({run_record_name, std::make_unique<RecordKeeper<D>>(record)});
   files_.push_back(setting.directory / run_record_name);
 }
 
@@ -101,7 +106,7 @@ Outputs<D>::~Outputs() = default;
 template <int D>
 std::vector<Watcher<D>*> Outputs<D>::watchers() const {
   std::vector<Watcher<D>*> all;
-  for (auto& w : watchers_) all.push_back(w.get());
+  for (auto& w : watchers_) all.push_back(w.watcher.get());
   return all;
 }
 
@@ -118,6 +123,11 @@ std::vector<std::string> Outputs<D>::summary() const {
                     trajectory_->most_beads(), maxnum_));
   }
   return lines;
+}
+
+template <int D>
+void Outputs<D>::visit(State& state) {
+  for (auto& w : watchers_) state.part(w.name, *w.watcher);
 }
 
 template class Outputs<1>;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/output_file.hpp"
@@ -18,6 +19,8 @@ class Nozzle;
 class Collector;
 template <int D>
 class Trajectory;
+class TrajectoryFile;
+class State;
 
 struct OutputSetting {
   std::filesystem::path directory;
@@ -39,10 +42,18 @@ class Outputs {
   /// One line a file, for the closing summary.
   std::vector<std::string> summary() const;
 
+  void visit(State& state);
+
  private:
+  std::shared_ptr<TrajectoryFile> trajectory_file(const Parameters& p, const OutputSetting& setting);
   void keep_record(const OutputSetting& setting);
 
-  std::vector<std::unique_ptr<Watcher<D>>> watchers_;
+  struct Named {
+    std::string name;  ///< of the part of a checkpoint that tells its state
+    std::unique_ptr<Watcher<D>> watcher;
+  };
+
+  std::vector<Named> watchers_;
   std::vector<std::filesystem::path> files_;
   const Trajectory<D>* trajectory_ = nullptr;
   int maxnum_;

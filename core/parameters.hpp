@@ -72,6 +72,8 @@ struct Parameters : CoulombSetting {
   int xyz_maxnum = 100;
   double xyz_rescale = 1;
   std::optional<double> print_hdf5;  ///< s
+
+  std::optional<double> checkpoint;  ///< s of wall-clock time
 };
 
 /// The interval of the tables in s; without print time JETSPIN's 1000 steps, or a hundredth of the run.

@@ -34,11 +34,17 @@ std::string program(const Provenance& p) {
                      p.build, p.vector_path);
 }
 
-std::string description(const Provenance& p) {
-  std::string text = fmt::format("{}\n{}\ndeck {}\n", program(p), p.libraries, p.deck_name);
-  for (const std::string_view line : lines_of(p.deck)) text += fmt::format("| {}\n", line);
-  for (const auto& line : p.overrides) text += fmt::format("--set \"{}\"\n", line);
+std::string deck_description(std::string_view name, std::string_view deck,
+                             const std::vector<std::string>& overrides) {
+  std::string text = fmt::format("deck {}\n", name);
+  for (const std::string_view line : lines_of(deck)) text += fmt::format("| {}\n", line);
+  for (const auto& line : overrides) text += fmt::format("--set \"{}\"\n", line);
   return text;
+}
+
+std::string description(const Provenance& p) {
+  return fmt::format("{}\n{}\n{}", program(p), p.libraries,
+                     deck_description(p.deck_name, p.deck, p.overrides));
 }
 
 std::string commented(const Provenance& p, std::string_view mark) {

@@ -28,7 +28,11 @@ std::string program(const Provenance& p);
 /// What `treejet info` shows: a line for the program, the libraries, and the deck with its overrides.
 std::string description(const Provenance& p);
 
-/// The same as lines that begin with `mark`, for the head of a text file.
+/// The last part of it.
+std::string deck_description(std::string_view name, std::string_view deck,
+                             const std::vector<std::string>& overrides);
+
+/// The whole as lines that begin with `mark`, for the head of a text file.
 std::string commented(const Provenance& p, std::string_view mark);
 
 /// Where the rest is told, beside each file of a run.

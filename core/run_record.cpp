@@ -63,7 +63,13 @@ void write(const fs::path& path, const Json& record) {
 }  // namespace
 
 RunRecord::RunRecord(const Setting& setting) : path_(setting.directory / run_record_name) {
-  Json record = setting.resumed ? read_record(path_) : record_of(setting);
+  using Existing = OutputFile::Existing;
+  std::error_code error;
+  const bool there = fs::exists(path_, error);
+  if (there && setting.existing == Existing::keep)
+    throw FileError(fmt::format(
+        "{}: exists already; choose another directory with --out, or --force to replace it", path_.string()));
+  Json record = there && setting.existing == Existing::resume ? read_record(path_) : record_of(setting);
   record["segments"].push_back({{"started", now()},
                                 {"host", host()},
                                 {"ranks", setting.circumstances.ranks},

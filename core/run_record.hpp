@@ -29,7 +29,7 @@ class RunRecord {
     Provenance made_by;
     std::vector<std::string> files;
     Circumstances circumstances;
-    bool resumed = false;  ///< adds a segment to the record that is there
+    OutputFile::Existing existing = OutputFile::Existing::keep;  ///< resume: adds a segment
   };
 
   /// Writes the record, with a segment that is running.

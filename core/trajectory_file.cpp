@@ -41,17 +41,11 @@ H5md::Chunk final_chunk(const H5md& file) {
           true};
 }
 
-/// Appends the first so many frames and rows of one file to another, whole chunks at a time.
-void copy(const H5md& from, H5md& to, std::uint64_t frames, std::uint64_t rows, std::uint64_t at_once) {
-  for (std::uint64_t i = 0; i < frames; i += at_once)
-    to.append(from.frames(i, std::min(at_once, frames - i)));
-  to.append(from.rows(0, rows));
-}
-
 }  // namespace
 
 TrajectoryFile::TrajectoryFile(const fs::path& path, H5md::Content content, OutputFile::Existing existing)
     : path_(path), content_(std::move(content)) {
+  if (existing == OutputFile::Existing::resume) return;
   std::error_code error;
   if (existing == OutputFile::Existing::keep && fs::exists(path_, error))
     throw FileError(fmt::format(
@@ -61,6 +55,14 @@ TrajectoryFile::TrajectoryFile(const fs::path& path, H5md::Content content, Outp
   fs::remove(twin(), error);
   H5md(twin(), content_, growing).close();
   put_in_place(twin(), path_);
+}
+
+TrajectoryFile::~TrajectoryFile() {
+  try {
+    flush();
+  } catch (const std::exception&) {
+    // if it is this file that the run has failed over, it has been told
+  }
 }
 
 fs::path TrajectoryFile::twin() const {
@@ -142,33 +144,39 @@ void TrajectoryFile::sync() {
 
 void TrajectoryFile::finish() {
   flush();
+  rewrite(/*final_form*/ true);
   write_xdmf();
-  rewrite(frames_, rows_, /*final_form*/ true);
 }
 
 void TrajectoryFile::continue_from(std::uint64_t frames, std::uint64_t rows) {
   pending_ = behind_ = {};
-  xdmf_ = {};
   frames_ = frames;
   rows_ = rows;
-  rewrite(frames, rows, /*final_form*/ false);
-  H5md file(path_, Hdf5File::Access::read);
-  for (std::uint64_t i = 0; i < frames; ++i) add_grid(file.frames(i, 1).front());
+  rewrite(/*final_form*/ false);
   write_xdmf();
 }
 
-/// Puts the first so many frames and rows of the file into a new one that takes its place.
-void TrajectoryFile::rewrite(std::uint64_t frames, std::uint64_t rows, bool final_form) {
+/// Puts the frames and rows so far, all of which are in the file, into a new one that takes its place.
+void TrajectoryFile::rewrite(bool final_form) {
   std::error_code error;
   fs::remove(twin(), error);
   twin_ = false;
   const H5md file(path_, Hdf5File::Access::read);
-  if (file.frames() < frames || file.rows() < rows)
-    throw FileError(fmt::format("{}: expected {} frames and {} rows, found {} and {}", path_.string(), frames,
-                                rows, file.frames(), file.rows()));
+  if (file.frames() < frames_ || file.rows() < rows_)
+    throw FileError(fmt::format("{}: expected {} frames and {} rows, found {} and {}", path_.string(),
+                                frames_, rows_, file.frames(), file.rows()));
   const H5md::Chunk chunk = final_form ? final_chunk(file) : growing;
+  const std::uint64_t at_once =
+      final_form ? chunk.frames : 64;  // whole chunks, so that none is compressed twice
   H5md fresh(twin(), content_, chunk);
-  copy(file, fresh, frames, rows, final_form ? chunk.frames : 64);
+  xdmf_ = {};
+  points_ = 0;
+  for (std::uint64_t i = 0; i < frames_; i += at_once) {
+    const std::vector<Frame> frames = file.frames(i, std::min(at_once, frames_ - i));
+    for (const Frame& f : frames) add_grid(f);
+    fresh.append(frames);
+  }
+  fresh.append(file.rows(0, rows_));
   fresh.close();
   put_in_place(twin(), path_);
 }

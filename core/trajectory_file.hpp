@@ -24,8 +24,11 @@ namespace treejet {
 
 class TrajectoryFile {
  public:
-  /// A new one, without frames.
+  /// A new one, without frames; or, to be resumed, the one that is there, whatever it holds: continue_from
+  /// comes next.
   TrajectoryFile(const std::filesystem::path& path, H5md::Content content, OutputFile::Existing existing);
+  /// Flushes what a run that has failed leaves.
+  ~TrajectoryFile();
   TrajectoryFile(const TrajectoryFile&) = delete;
   TrajectoryFile& operator=(const TrajectoryFile&) = delete;
 
@@ -58,7 +61,7 @@ class TrajectoryFile {
   void bring_twin_up_to_date();
   void exchange_with_twin();
   void write_xdmf() const;
-  void rewrite(std::uint64_t frames, std::uint64_t rows, bool final_form);
+  void rewrite(bool final_form);
 
   std::filesystem::path path_;
   H5md::Content content_;

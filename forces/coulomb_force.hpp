@@ -29,7 +29,9 @@ class CoulombForce final : public ForceTerm<D> {
   }
 
   void prepare(const Chain<D>& c) override {
-    field_.resize(c.beads, Eigen::NoChange);
+    field_.resize(c.points(), Eigen::NoChange);
+    mutual_ = !solver_ && reach_ >= c.points() - 1 && c.points() <= few_points;
+    if (mutual_) coulomb_mutual<D>(charges(c), field_arrays());
     if constexpr (D == 3) {
       if (!solver_) return;
       solver_->field(charges(c), {0, c.beads}, field_arrays(), threads_);
@@ -38,7 +40,7 @@ class CoulombForce final : public ForceTerm<D> {
   }
 
   void add(const Chain<D>& c, Rows rows, Acceleration<D>& a) const override {
-    if (!solver_) sum_directly(c, rows);
+    if (!solver_ && !mutual_) sum_directly(c, rows);
     const int i = rows.first, n = rows.size();
     for (int k = 0; k < D; ++k) {
       a.col(k).segment(i, n) +=
@@ -46,9 +48,13 @@ class CoulombForce final : public ForceTerm<D> {
     }
   }
 
+  void visit(Archive& state) {
+    if (solver_) state(*solver_);
+  }
+
   double Q() const { return Q_; }
 
-  /// E at the beads, as `add` last computed it.
+  /// E at the beads (its first rows), as last computed.
   const typename Chain<D>::Points& field() const { return field_; }
 
   /// The sum to a stated error, null if it is direct.
@@ -77,6 +83,7 @@ class CoulombForce final : public ForceTerm<D> {
 
   double Q_;
   int reach_;
+  bool mutual_ = false;  ///< few points: done by the third law before rows are shared out
   std::unique_ptr<CoulombSolver> solver_;
   Threads threads_;
   mutable typename Chain<D>::Points field_;  ///< each row is written and read by its owner only

@@ -19,6 +19,9 @@ void study_time_reversal(Report& report);
 /// tolerance.
 void study_stiffness(Report& report);
 
+/// Runs killed at random moments and resumed, over and over: what is left after each death, and in the end.
+void study_restart(Report& report);
+
 /// Decks and states at the edge of what can be simulated: a right answer or a clear stop.
 void study_extreme_cases(Report& report);
 

@@ -10,7 +10,7 @@
 namespace {
 
 constexpr const char* lesson = R"(
-Each study prints tables, writes them to DIR as CSV and draws them with validation/plot_validation.py.
+Each study prints tables, writes them to DIR as CSV and draws what can be drawn with validation/plot_validation.py.
 Exit codes: 0 all claims hold, 1 one does not, 2 arguments, 4 files.)";
 
 int draw(const std::string& directory) {
@@ -26,12 +26,14 @@ int run(const std::string& study, const std::string& directory, bool quick) {
     treejet::study_time_reversal(report);
     treejet::study_reference_values(report);
     treejet::study_work_precision(report);
+  } else if (study == "restart") {
+    treejet::study_restart(report);
   } else {
     treejet::study_stiffness(report);
     treejet::study_extreme_cases(report);
   }
   const int failures = report.conclude("checks_" + study);
-  if (draw(directory) != 0) fmt::print(stderr, "treejet-validate: the pictures could not be drawn\n");
+  if (study != "restart" && draw(directory) != 0) fmt::print(stderr, "treejet-validate: the pictures could not be drawn\n");
   if (failures > 0) fmt::print("\n{} claims do not hold\n", failures);
   return failures > 0 ? 1 : 0;
 }
@@ -46,7 +48,8 @@ int main(int argc, char** argv) {
   bool quick = false;
   for (const auto& [study, meaning] :
        {std::pair{"time", "Error against work, orders of convergence, time reversal"},
-        std::pair{"stability", "Largest stable steps, extreme cases"}}) {
+        std::pair{"stability", "Largest stable steps, extreme cases"},
+        std::pair{"restart", "Runs killed at random moments and resumed"}}) {
     auto& command = *app.add_subcommand(study, meaning);
     command.add_option("--out", directory, "directory of tables and pictures, made if missing")
         ->capture_default_str();
