@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
 #include <iostream>
 
@@ -32,43 +33,82 @@ std::string notes(const Deck& deck) {
   return text;
 }
 
+/// "2 ranks, 4 threads each".
+std::string workers_description(const Ranks& ranks, Threads threads) {
+  if (ranks.size() == 1) return threads_description(threads);
+  return fmt::format("{} ranks, each with {}", ranks.size(), threads_description(threads));
+}
+
+/// The threads of each rank; warns where they have too few cores.
+Threads threads(const Arguments& a, const Ranks& ranks) {
+  const Threads threads{a.threads > 0 ? a.threads : ranks.threads_each()};
+  const std::string crowding = ranks.crowding(threads);
+  if (!crowding.empty()) fmt::print(stderr, "treejet: warning: {}\n", crowding);
+  return threads;
+}
+
+/// Ranks that do not do the same arithmetic would drift apart.
+void require_same(const Ranks& ranks, const Deck& deck) {
+  std::string text = deck.text;
+  for (const auto& o : deck.overrides) text += "\n" + o;
+  if (!ranks.agree(version_text()))
+    throw LaunchError(
+        "the ranks differ in program or vectors; TREEJET_VECTOR_PATH=avx2 in the environment of "
+        "all makes the vectors of different processors alike");
+  if (!ranks.agree(text)) throw LaunchError(fmt::format("the ranks have read different decks {}", deck.name));
+}
+
 template <int D>
-int run(const Deck& deck, const Arguments& a, Checkpoint* checkpoint) {
+int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* checkpoint) {
+  require_same(ranks, deck);
   const Parameters& p = deck.parameters;
-  const Threads threads{a.threads > 0 ? a.threads : available_cores()};
+  const Threads each = threads(a, ranks);
   const std::string directory = checkpoint ? a.resume : a.out;
   const auto existing = checkpoint ? OutputFile::Existing::resume
                         : a.force  ? OutputFile::Existing::replace
                                    : OutputFile::Existing::keep;
-  Interruption interruption({p.checkpoint, a.walltime});
-  Scene<D> scene = compose<D>(p, threads);
-  Simulation<D> simulation(
-      deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
-      {{directory, existing, a.quiet, provenance(deck, vector_path()), {1, threads.count}},
-       version_text(),
-       [&] { return interruption.wish(); }});
+  // ranks meet signals at different steps and have clocks of their own: the first one's clock counts, and all
+  // follow the strongest wish
+  Interruption interruption(ranks.first() ? Interruption::Setting{p.checkpoint, a.walltime}
+                                          : Interruption::Setting{});
+  const auto wish = [&] { return Wish{ranks.greatest(static_cast<int>(interruption.wish()))}; };
+  Scene<D> scene = compose<D>(p, each, ranks);
+  Simulation<D> simulation(deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
+                           {{directory,
+                             existing,
+                             a.quiet,
+                             !ranks.first(),
+                             provenance(deck, vector_path()),
+                             {ranks.size(), each.count}},
+                            version_text(),
+                            wish});
   if (!a.quiet) {
     fmt::print("{}\n{}\n{}{}", version_text(), deck.name, notes(deck),
                composition(scene.composed, scene.left_out));
-    fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p), threads_description(threads));
+    fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p),
+               workers_description(ranks, each));
   }
   if (checkpoint) simulation.resume(*checkpoint);
+  const auto started = std::chrono::steady_clock::now();
   if (!simulation.finish()) {
-    fmt::print(stderr, "treejet: stopped at t = {:.6g} s by {}; to go on: treejet run --resume {}\n",
-               simulation.t(), interruption.reason(), directory);
+    if (ranks.first())
+      fmt::print(stderr, "treejet: stopped at t = {:.6g} s by {}; to go on: treejet run --resume {}\n",
+                 simulation.t(), interruption.reason(), directory);
     return stopped_early;
   }
-  if (!a.quiet) fmt::print("\n{}", simulation.summary());
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  if (!a.quiet) fmt::print("\n{}{}", simulation.summary(), times_description(ranks.times(), seconds));
   return 0;
 }
 
-int resume(const Arguments& a) {
+int resume(const Arguments& a, const Ranks& ranks) {
   Resumption stopped = resumption(a.resume, version_text());
-  for (const auto& w : stopped.warnings) fmt::print(stderr, "treejet: warning: {}\n", w);
+  if (ranks.first())
+    for (const auto& w : stopped.warnings) fmt::print(stderr, "treejet: warning: {}\n", w);
   if (!a.deck.empty()) expect_same(read_deck(a.deck, a.overrides), stopped.deck);
   const bool straight = stopped.deck.parameters.system == 1;
-  return straight ? run<1>(stopped.deck, a, &stopped.checkpoint)
-                  : run<3>(stopped.deck, a, &stopped.checkpoint);
+  return straight ? run<1>(stopped.deck, a, ranks, &stopped.checkpoint)
+                  : run<3>(stopped.deck, a, ranks, &stopped.checkpoint);
 }
 
 template <int D>
@@ -86,22 +126,23 @@ void check(const Deck& deck) {
   fmt::print("{}", plan_description(p, trial, all_pairs));
 }
 
-int main(const Arguments& a) {
+int main(const Arguments& a, const Ranks& ranks) {
   if (a.command == "template") return fmt::print("{}", deck_template()), 0;
   if (a.command == "reference") return fmt::print("{}\n{}", directive_reference(), key_reference()), 0;
   if (a.command == "field") {
-    const int threads = a.threads > 0 ? a.threads : available_cores();
-    run({a.points, a.field_out, coulomb_request(a.coulomb), threads, a.repeat, a.compare, a.json}, std::cout);
+    run({a.points, a.field_out, coulomb_request(a.coulomb), threads(a, ranks), ranks, a.repeat, a.compare,
+         a.json},
+        std::cout);
     return 0;
   }
   const auto existing = a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
   if (a.command == "convert")
     return fmt::print("{}\n", convert({a.file, a.format, a.converted, existing})), 0;
   if (a.command == "info") return fmt::print("{}", file_info(a.file)), 0;
-  if (!a.resume.empty()) return resume(a);
+  if (!a.resume.empty()) return resume(a, ranks);
   const Deck deck = read_deck(a.deck, a.overrides);
   const bool straight = deck.parameters.system == 1;
-  if (a.command == "run") return straight ? run<1>(deck, a, nullptr) : run<3>(deck, a, nullptr);
+  if (a.command == "run") return straight ? run<1>(deck, a, ranks, nullptr) : run<3>(deck, a, ranks, nullptr);
   straight ? check<1>(deck) : check<3>(deck);
   return 0;
 }
@@ -109,14 +150,19 @@ int main(const Arguments& a) {
 }  // namespace treejet
 
 int main(int argc, char** argv) {
+  treejet::Ranks ranks;
+  const auto fail = [&](int exit_code, const char* what) {
+    return ranks.fail(exit_code, fmt::format("treejet: {}\n", what));
+  };
   try {
-    const auto line = treejet::command_line(argc, argv, treejet::version_text());
-    return line.arguments ? treejet::main(*line.arguments) : line.exit_code;
+    ranks = treejet::join_ranks();
+    const auto arguments = treejet::command_line(argc, argv, treejet::version_text());
+    return arguments ? treejet::main(*arguments, ranks) : 0;
   } catch (const treejet::Error& e) {
-    fmt::print(stderr, "treejet: {}\n", e.what());
-    return e.exit_code();
+    return fail(e.exit_code(), e.what());
+  } catch (const treejet::LaunchError& e) {
+    return fail(2, e.what());
   } catch (const std::exception& e) {
-    fmt::print(stderr, "treejet: {}\n", e.what());
-    return 1;
+    return fail(1, e.what());
   }
 }

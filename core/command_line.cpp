@@ -1,7 +1,11 @@
 #include "core/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <iostream>
 #include <map>
+#include <sstream>
+
+#include "core/error.hpp"
 
 namespace treejet {
 
@@ -49,6 +53,21 @@ std::optional<double> wall_seconds(const std::string& text) {
   return sum > 0 ? std::optional(sum) : std::nullopt;
 }
 
+void add_threads(CLI::App& command, Arguments& a) {
+  const auto number = [](std::string& text) {
+    if (text != "auto") return CLI::Range(1, 4096)(text);
+    text = "0";
+    return std::string();
+  };
+  command
+      .add_option(
+          "--threads", a.threads,
+          "threads at the most, of each rank; small jets use fewer (auto: OMP_NUM_THREADS, or all cores "
+          "there are for it)")
+      ->transform(CLI::Validator(number, "1 to 4096, or auto"))
+      ->default_str("auto");
+}
+
 template <class T>
 void add_choice(CLI::App& command, const char* name, T& value, std::map<std::string, T> words,
                 const char* meaning) {
@@ -64,7 +83,7 @@ void add_field(CLI::App& app, Arguments& a) {
       {{"direct", CoulombSum::direct}, {"tree", CoulombSum::tree}, {"auto", CoulombSum::automatic}},
       "how to sum");
   field.add_option("--accuracy", c.coulomb_accuracy, "relative L2 error of the field")->capture_default_str();
-  field.add_option("--threads", a.threads, "threads (default: all cores)")->check(CLI::Range(1, 4096));
+  add_threads(field, a);
   field.add_option("--repeat", a.repeat, "evaluate so often, report the best time")
       ->check(CLI::Range(1, 1000000));
   field.add_flag("--compare", a.compare, "measure the error against direct summation");
@@ -97,7 +116,7 @@ void add_files(CLI::App& app, Arguments& a) {
 
 }  // namespace
 
-CommandLine command_line(int argc, char** argv, const std::string& version_text) {
+std::optional<Arguments> command_line(int argc, char** argv, const std::string& version_text) {
   Arguments a;
   CLI::App app{"Treejet: electrospinning jets as chains of charged viscoelastic beads", "treejet"};
   app.set_version_flag("--version", version_text);
@@ -108,8 +127,7 @@ CommandLine command_line(int argc, char** argv, const std::string& version_text)
   auto* deck = add_deck(run, a);
   auto* out =
       run.add_option("--out", a.out, "directory of the results, made if missing")->capture_default_str();
-  run.add_option("--threads", a.threads, "threads at the most; small jets use fewer (default: all cores)")
-      ->check(CLI::Range(1, 4096));
+  add_threads(run, a);
   run.add_flag("--quiet", a.quiet, "no table, no progress, no summary");
   auto* force = run.add_flag("--force", a.force, "replace results that are there already");
   auto* resume =
@@ -134,11 +152,12 @@ CommandLine command_line(int argc, char** argv, const std::string& version_text)
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    constexpr int wrong_arguments = 2;
-    return {std::nullopt, app.exit(e) == 0 ? 0 : wrong_arguments};
+    std::ostringstream wrong;
+    if (app.exit(e, std::cout, wrong) == 0) return std::nullopt;
+    throw InputError(wrong.str().substr(0, wrong.str().find_last_not_of('\n') + 1));
   }
   a.command = app.get_subcommands().front()->get_name();
-  return {a, 0};
+  return a;
 }
 
 }  // namespace treejet

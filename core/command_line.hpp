@@ -14,7 +14,7 @@ struct Arguments {
   std::string deck;
   std::vector<std::string> overrides;
   std::string out = ".";
-  int threads = 0;  ///< 0: as many as there are cores
+  int threads = 0;  ///< 0: auto
   bool quiet = false, force = false;
   std::string resume;              ///< directory of the run to continue; empty: a new run
   std::optional<double> walltime;  ///< s
@@ -27,12 +27,8 @@ struct Arguments {
   bool compare = false, json = false;
 };
 
-/// The arguments of a command, or, when help, version or an error has been printed, the exit code.
-struct CommandLine {
-  std::optional<Arguments> arguments;
-  int exit_code = 0;
-};
-
-CommandLine command_line(int argc, char** argv, const std::string& version_text);
+/// The arguments of a command; none when help or version has been asked for, and printed. InputError for
+/// wrong ones.
+std::optional<Arguments> command_line(int argc, char** argv, const std::string& version_text);
 
 }  // namespace treejet

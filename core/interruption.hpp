@@ -15,7 +15,7 @@
 
 namespace treejet {
 
-enum class Wish { go_on, save, stop };
+enum class Wish { go_on, save, stop };  ///< from weak to strong
 
 class Interruption {
  public:

@@ -45,6 +45,7 @@ template <int D>
 Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
                     const OutputSetting& setting)
     : maxnum_(p.xyz_maxnum) {
+  if (setting.elsewhere) return;
   const Scales s = scales(p);
   const auto file = [&](const char* name) {
     files_.push_back(setting.directory / name);

@@ -26,6 +26,7 @@ struct OutputSetting {
   std::filesystem::path directory;
   OutputFile::Existing existing = OutputFile::Existing::keep;
   bool quiet = false;
+  bool elsewhere = false;  ///< another process makes the outputs of this run
   Provenance made_by = {};
   Circumstances circumstances = {};
 };

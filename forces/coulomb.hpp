@@ -49,6 +49,9 @@ void coulomb_mutual(const PointCharges<D>& points, const FieldArrays<D>& field, 
 /// So few that a second worker would not pay.
 constexpr int few_points = 512;
 
+/// Shares of rows in whole blocks of this size fill the wide registers.
+constexpr int direct_block = 16;
+
 /// The name of the default path: "avx512", "avx2" or "plain".
 const char* vector_path();
 

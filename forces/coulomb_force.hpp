@@ -4,8 +4,8 @@
 ///     a_i = (Q q_i / m_i) E_i ,      E_i = sum_{j != i} q_j (r_i - r_j) / |r_i - r_j|^3 .
 ///
 /// The sum is direct (forces/coulomb.hpp) or to a stated error (forces/coulomb_solver.hpp, three dimensions
-/// only). `reach` is the deck's cutoff as a number of points along the chain: pairs with |i - j| <= reach
-/// interact. Source: paper, Sec. "Equations of motion".
+/// only), shared out among ranks. `reach` is the deck's cutoff as a number of points along the chain: pairs
+/// with |i - j| <= reach interact. Source: paper, Sec. "Equations of motion".
 
 #include <memory>
 
@@ -13,34 +13,40 @@
 #include "forces/coulomb.hpp"
 #include "forces/coulomb_solver.hpp"
 #include "forces/term.hpp"
-#include "parallel/threads.hpp"
+#include "parallel/share_rows.hpp"
 
 namespace treejet {
 
 template <int D>
 class CoulombForce final : public ForceTerm<D> {
  public:
-  CoulombForce(double Q, int reach) : Q_(Q), reach_(reach) {}
-  CoulombForce(double Q, const CoulombRequest& request, Threads threads)
-      : Q_(Q), reach_(0), solver_(std::make_unique<CoulombSolver>(request)), threads_(threads) {}
+  CoulombForce(double Q, int reach, const Ranks& ranks = {}) : Q_(Q), reach_(reach), ranks_(ranks) {}
+  CoulombForce(double Q, const CoulombRequest& request, const Ranks& ranks = {})
+      : Q_(Q),
+        reach_(0),
+        ranks_(ranks),
+        solver_(std::make_unique<CoulombSolver>(request, default_path(), ranks)) {}
 
   std::string_view name() const override {
     return solver_ ? "Coulomb sum to a stated error" : "Coulomb sum over all pairs";
   }
 
-  void prepare(const Chain<D>& c) override {
+  void prepare(const Chain<D>& c, Threads threads) override {
     field_.resize(c.points(), Eigen::NoChange);
-    mutual_ = !solver_ && reach_ >= c.points() - 1 && c.points() <= few_points;
-    if (mutual_) coulomb_mutual<D>(charges(c), field_arrays());
+    const Rows beads = {0, c.beads};
+    const FieldArrays<D> field = field_arrays();
     if constexpr (D == 3) {
-      if (!solver_) return;
-      solver_->field(charges(c), {0, c.beads}, field_arrays(), threads_);
-      if (solver_->report().coincident > 0) throw NumericalError("two beads of the jet are at one place");
+      if (solver_) {
+        solver_->field(charges(c), beads, field, threads);
+        if (solver_->report().coincident > 0) throw NumericalError("two beads of the jet are at one place");
+        return;
+      }
     }
+    if (reach_ >= c.points() - 1 && c.points() <= few_points) return coulomb_mutual<D>(charges(c), field);
+    share_rows(ranks_, threads, beads, direct_block, field, [&](Rows rows) { sum_directly(c, rows, field); });
   }
 
   void add(const Chain<D>& c, Rows rows, Acceleration<D>& a) const override {
-    if (!solver_ && !mutual_) sum_directly(c, rows);
     const int i = rows.first, n = rows.size();
     for (int k = 0; k < D; ++k) {
       a.col(k).segment(i, n) +=
@@ -54,7 +60,7 @@ class CoulombForce final : public ForceTerm<D> {
 
   double Q() const { return Q_; }
 
-  /// E at the beads (its first rows), as last computed.
+  /// E at the beads (its first rows), as `prepare` last computed it.
   const typename Chain<D>::Points& field() const { return field_; }
 
   /// The sum to a stated error, null if it is direct.
@@ -67,26 +73,25 @@ class CoulombForce final : public ForceTerm<D> {
     return points;
   }
 
-  FieldArrays<D> field_arrays() const {
+  FieldArrays<D> field_arrays() {
     FieldArrays<D> field;
     for (int k = 0; k < D; ++k) field[k] = field_.col(k).data();
     return field;
   }
 
-  void sum_directly(const Chain<D>& c, Rows rows) const {
+  void sum_directly(const Chain<D>& c, Rows rows, const FieldArrays<D>& field) const {
     if (reach_ < c.points() - 1) {
-      coulomb_plain<D>(charges(c), rows, field_arrays(), reach_);
+      coulomb_plain<D>(charges(c), rows, field, reach_);
     } else {
-      coulomb_direct<D>(charges(c), rows, field_arrays());
+      coulomb_direct<D>(charges(c), rows, field);
     }
   }
 
   double Q_;
   int reach_;
-  bool mutual_ = false;  ///< few points: done by the third law before rows are shared out
+  Ranks ranks_;
   std::unique_ptr<CoulombSolver> solver_;
-  Threads threads_;
-  mutable typename Chain<D>::Points field_;  ///< each row is written and read by its owner only
+  typename Chain<D>::Points field_;
 };
 
 }  // namespace treejet

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "forces/coulomb_calibration.hpp"
+#include "parallel/share_rows.hpp"
 
 namespace treejet {
 
@@ -39,8 +40,8 @@ int repair_coincident(const PointCharges<3>& points, Rows rows, const FieldArray
 
 }  // namespace
 
-CoulombSolver::CoulombSolver(const CoulombRequest& request, VectorPath path)
-    : request_(request), path_(path), tree_(path) {
+CoulombSolver::CoulombSolver(const CoulombRequest& request, VectorPath path, const Ranks& ranks)
+    : request_(request), path_(path), ranks_(ranks), tree_(path, ranks) {
   if (!(request.accuracy > 0)) throw InputError("coulomb accuracy must be positive");
   if (request.order && (*request.order < 2 || *request.order > 14))
     throw InputError("coulomb order must be 2 to 14");
@@ -54,7 +55,8 @@ void CoulombSolver::field(const PointCharges<3>& points, Rows rows, const FieldA
                           Threads threads) {
   decide(points, threads);
   if (report_.direct) {
-    for_each_block(threads, rows, 64, [&](Rows block) { coulomb_direct<3>(points, block, field, path_); });
+    share_rows(ranks_, threads, rows, direct_block, field,
+               [&](Rows block) { coulomb_direct<3>(points, block, field, path_); });
     report_.interactions = {static_cast<std::int64_t>(rows.size()) * points.n, 0};
   } else {
     report_.interactions = tree_.evaluate(tree_.leaves_of(rows), rows, field, threads);

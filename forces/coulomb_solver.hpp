@@ -16,7 +16,7 @@
 /// is direct, and the report says so.
 ///
 /// All decisions follow from the points and the count of evaluations, never from a clock: the same calls give
-/// the same bits on any number of threads. With `rows` of one rank out of many, all ranks decide alike.
+/// the same bits on any number of threads and ranks.
 ///
 /// Two points at one place: the pair is left out of both fields, and counted in the report.
 
@@ -59,8 +59,10 @@ struct CoulombReport {
 class CoulombSolver {
  public:
   /// InputError for an accuracy that is not positive or a pinned value out of range.
-  explicit CoulombSolver(const CoulombRequest& request, VectorPath path = default_path());
+  explicit CoulombSolver(const CoulombRequest& request, VectorPath path = default_path(),
+                         const Ranks& ranks = {});
 
+  /// The field at `rows`, the same on all ranks.
   void field(const PointCharges<3>& points, Rows rows, const FieldArrays<3>& field, Threads threads);
 
   const CoulombReport& report() const { return report_; }
@@ -75,6 +77,7 @@ class CoulombSolver {
 
   CoulombRequest request_;
   VectorPath path_;
+  Ranks ranks_;
   CoulombTree tree_;
   CoulombReport report_;
   int chosen_for_ = 0, since_check_ = 0, since_sort_ = 0;

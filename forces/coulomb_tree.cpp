@@ -133,40 +133,75 @@ std::vector<int> CoulombTree::points_of(int leaf) const {
 
 Interactions CoulombTree::evaluate(const std::vector<int>& leaves, Rows rows, const FieldArrays<3>& field,
                                    Threads threads) {
+  const std::span<const int> own = own_share(leaves);
   wanted_.assign(index(cells_.size()), 0);
   for (int l = 0; l < cells_.levels(); ++l)
-    for (int leaf : leaves) wanted_[index(cells_.level(l).first + (leaf >> (cells_.levels() - 1 - l)))] = 1;
+    for (int leaf : own) wanted_[index(cells_.level(l).first + (leaf >> (cells_.levels() - 1 - l)))] = 1;
 
   const Interactions done = shape_.local ? local_expansions(threads) : barnes_hut(threads);
-  for_each_block(threads, {0, static_cast<int>(leaves.size())}, leaves_a_task, [&](Rows some) {
-    for (int n = some.first; n < some.last; ++n) {
-      const int leaf = leaves[index(n)];
-      const CellPoints points = leaf_cell(leaf);
+  if (shape_.local)
+    for_each_block(threads, {0, static_cast<int>(own.size())}, leaves_a_task, [&](Rows some) {
       double* const E[3] = {field_[0].data(), field_[1].data(), field_[2].data()};
-      if (shape_.local) kernels_->l2p(expansions_, cells_.level(cells_.levels() - 1).first + leaf, points, E);
-      give(leaf, rows, field);
-    }
-  });
+      for (int n = some.first; n < some.last; ++n)
+        kernels_->l2p(expansions_, cells_.level(cells_.levels() - 1).first + own[index(n)],
+                      leaf_cell(own[index(n)]), E);
+    });
+  gather(leaves);
+  give(leaves, rows, field, threads);
   return done;
 }
 
 void CoulombTree::evaluate_directly(const std::vector<int>& leaves, const FieldArrays<3>& field,
                                     Threads threads) {
+  const std::span<const int> own = own_share(leaves);
   const CellRange all = {0, cells_.points()};
-  for_each_task(threads, static_cast<int>(leaves.size()), [&](int n) {
+  for_each_task(threads, static_cast<int>(own.size()), [&](int n) {
     double* const E[3] = {field_[0].data(), field_[1].data(), field_[2].data()};
-    kernels_->p2p(leaf_cell(leaves[index(n)]), &all, 1, E);
-    give(leaves[index(n)], {all.first, all.last}, field);
+    kernels_->p2p(leaf_cell(own[index(n)]), &all, 1, E);
   });
+  gather(leaves);
+  give(leaves, {all.first, all.last}, field, threads);
 }
 
-void CoulombTree::give(int leaf, Rows rows, const FieldArrays<3>& field) const {
-  const Rows points = cells_.leaf_points(leaf);
-  for (int k = points.first; k < points.last; ++k) {
-    const int i = source(k);
-    if (i >= rows.first && i < rows.last)
-      for (std::size_t e = 0; e < 3; ++e) field[e][i] = field_[e][index(k)];
-  }
+std::span<const int> CoulombTree::own_share(const std::vector<int>& leaves) const {
+  const std::vector<int> borders = ranks_.borders({0, static_cast<int>(leaves.size())}, 1);
+  const std::size_t first = index(borders[index(ranks_.rank())]),
+                    last = index(borders[index(ranks_.rank() + 1)]);
+  return std::span(leaves).subspan(first, last - first);
+}
+
+/// The field at the points of the leaves, packed leaf after leaf, goes from each rank to all.
+void CoulombTree::gather(const std::vector<int>& leaves) {
+  if (ranks_.size() == 1) return;
+  std::vector<int> packed = {0};  // place of each leaf
+  for (int leaf : leaves) packed.push_back(packed.back() + cells_.leaf_points(leaf).size());
+  std::vector<int> borders = ranks_.borders({0, static_cast<int>(leaves.size())}, 1);
+  for (int& b : borders) b = packed[index(b)];
+  std::array<std::vector<double>, 3> values;
+  for (auto& v : values) v.resize(index(packed.back()));
+  const auto for_each_leaf = [&](auto&& copy) {
+    for (std::size_t k = 0; k < leaves.size(); ++k)
+      for (std::size_t e = 0; e < 3; ++e)
+        copy(field_[e].data() + cells_.leaf_points(leaves[k]).first, values[e].data() + packed[k],
+             packed[k + 1] - packed[k]);
+  };
+  for_each_leaf([](const double* field, double* value, int n) { std::copy_n(field, n, value); });
+  ranks_.gather(std::array{values[0].data(), values[1].data(), values[2].data()}, borders);
+  for_each_leaf([](double* field, const double* value, int n) { std::copy_n(value, n, field); });
+}
+
+void CoulombTree::give(const std::vector<int>& leaves, Rows rows, const FieldArrays<3>& field,
+                       Threads threads) const {
+  for_each_block(threads, {0, static_cast<int>(leaves.size())}, leaves_a_task, [&](Rows some) {
+    for (int n = some.first; n < some.last; ++n) {
+      const Rows points = cells_.leaf_points(leaves[index(n)]);
+      for (int k = points.first; k < points.last; ++k) {
+        const int i = source(k);
+        if (i >= rows.first && i < rows.last)
+          for (std::size_t e = 0; e < 3; ++e) field[e][i] = field_[e][index(k)];
+      }
+    }
+  });
 }
 
 /// Neighbouring leaves are neighbouring points: one range of sources.

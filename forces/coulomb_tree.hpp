@@ -18,6 +18,7 @@
 #include "forces/cells.hpp"
 #include "forces/coulomb.hpp"
 #include "forces/wide_kernels.hpp"
+#include "parallel/ranks.hpp"
 
 namespace treejet {
 
@@ -38,7 +39,8 @@ struct Interactions {
 
 class CoulombTree {
  public:
-  explicit CoulombTree(VectorPath path = default_path()) : kernels_(&wide_kernels(path)) {}
+  explicit CoulombTree(VectorPath path = default_path(), const Ranks& ranks = {})
+      : kernels_(&wide_kernels(path)), ranks_(ranks) {}
 
   /// With `keep_order` the order found last time serves again, if the number of points and the shape allow
   /// it: right for any points, best while they hardly move.
@@ -53,7 +55,8 @@ class CoulombTree {
   /// The points of a leaf, by their place in the caller's arrays.
   std::vector<int> points_of(int leaf) const;
 
-  /// Writes the field at the points of the given leaves (ascending) that lie in `rows`.
+  /// Writes the field at the points of the given leaves (ascending) that lie in `rows`. Ranks share the
+  /// leaves out; what is done is told of this rank's share.
   Interactions evaluate(const std::vector<int>& leaves, Rows rows, const FieldArrays<3>& field,
                         Threads threads);
 
@@ -72,7 +75,9 @@ class CoulombTree {
   void copy_points(const PointCharges<3>& points, Threads threads);
   void expand(int order, Threads threads);
   void move_up(Threads threads);
-  void give(int leaf, Rows rows, const FieldArrays<3>& field) const;
+  std::span<const int> own_share(const std::vector<int>& leaves) const;
+  void gather(const std::vector<int>& leaves);
+  void give(const std::vector<int>& leaves, Rows rows, const FieldArrays<3>& field, Threads threads) const;
   void move_down(Threads threads);
   Interactions local_expansions(Threads threads);
   Interactions barnes_hut(Threads threads);
@@ -81,6 +86,7 @@ class CoulombTree {
   bool wanted(int cell) const { return wanted_[static_cast<std::size_t>(cell)]; }
 
   const WideKernels* kernels_;
+  Ranks ranks_;
   TreeShape shape_;
   Cells cells_;
   Expansions expansions_{};

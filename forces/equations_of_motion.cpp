@@ -38,7 +38,7 @@ void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const Table<D
   for_each_block(threads, {0, n}, block, [&](Rows rows) {
     set_elements<D>(chain_, jet, nozzle_, t, y, {rows.first, rows.last});
   });
-  for (auto& term : terms_) term->prepare(chain_);
+  for (auto& term : terms_) term->prepare(chain_, threads);
   for_each_block(threads, {0, n}, block, [&](Rows rows) {
     set_local(chain_, y, rows, slope);
     Acceleration<D> acceleration = slope.template middleCols<D>(velocity_column<D>);

@@ -31,11 +31,11 @@ double seconds(F&& f) {
 Times timed(const FieldCommand& command, const PointTable& points, CoulombSolver& solver,
             const FieldArrays<3>& field) {
   const Rows all = {0, points.size()};
-  const Threads threads = {command.threads};
+  const Threads threads = command.threads;
   Times best;
   const double first = seconds([&] { solver.field(points.view(), all, field, threads); });
   const CoulombReport& report = solver.report();
-  CoulombTree tree;
+  CoulombTree tree(default_path(), command.ranks);
   best.evaluate = std::numeric_limits<double>::infinity();
   for (int k = 0; k < std::max(1, command.repeat); ++k) {
     Times once;
@@ -116,15 +116,15 @@ void run(const FieldCommand& command, std::ostream& report) {
   std::vector<double> E[3];
   for (auto& values : E) values.resize(points.q.size());
   const FieldArrays<3> field = {E[0].data(), E[1].data(), E[2].data()};
-  CoulombSolver solver(command.request);
+  CoulombSolver solver(command.request, default_path(), command.ranks);
   const Times times = timed(command, points, solver, field);
 
   FieldError error;
-  if (command.compare) error = field_error(points.view(), field, {command.threads});
+  if (command.compare) error = field_error(points.view(), field, command.threads);
   const FieldError* compared = command.compare ? &error : nullptr;
   report << (command.json ? object(solver.report(), points.size(), times, compared)
                           : lines(solver.report(), points.size(), times, compared));
-  if (!command.out.empty()) write_field(command.out, points, field);
+  if (!command.out.empty() && command.ranks.first()) write_field(command.out, points, field);
 }
 
 }  // namespace treejet

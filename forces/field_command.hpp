@@ -16,7 +16,8 @@ struct FieldCommand {
   std::string points;  ///< file to read
   std::string out;     ///< file to write the field to, or empty
   CoulombRequest request;
-  int threads = 1;
+  Threads threads = {};
+  Ranks ranks = {};
   int repeat = 1;
   bool compare = false;  ///< with direct summation: all points up to 20,000, else a sample of them
   bool json = false;     ///< one object instead of text

@@ -44,7 +44,7 @@ int reach(const Parameters& p) {
 template <int D>
 class Composer {
  public:
-  Composer(const Parameters& p, Threads threads) : p_(p), g_(groups(p)), threads_(threads) {}
+  Composer(const Parameters& p, const Ranks& ranks) : p_(p), g_(groups(p)), ranks_(ranks) {}
 
   std::unique_ptr<StressLaw<D>> stress_law() {
     const Scales s = scales(p_);
@@ -92,8 +92,9 @@ class Composer {
                           : p_.cutoff                             ? "cutoff"
                           : chosen_scheme(p_) == Scheme::kencarp5 ? "a scheme that solves for the local terms"
                           : g_.Q == 0                             ? "no Coulomb sum"
-                          : stiffness(p_).relaxes_between_beads() ? "stress relaxes within the interval of beads"
-                                                                  : nullptr;
+                          : stiffness(p_).relaxes_between_beads()
+                              ? "stress relaxes within the interval of beads"
+                              : nullptr;
     note(!why_not, "two rates", "multirate auto", why_not);
     return !why_not;
   }
@@ -102,8 +103,8 @@ class Composer {
 
  private:
   std::unique_ptr<CoulombForce<D>> coulomb() {
-    if (p_.coulomb == CoulombSum::direct) return std::make_unique<CoulombForce<D>>(g_.Q, reach(p_));
-    return std::make_unique<CoulombForce<D>>(g_.Q, coulomb_request(p_), threads_);
+    if (p_.coulomb == CoulombSum::direct) return std::make_unique<CoulombForce<D>>(g_.Q, reach(p_), ranks_);
+    return std::make_unique<CoulombForce<D>>(g_.Q, coulomb_request(p_), ranks_);
   }
 
   template <class Make>
@@ -119,15 +120,15 @@ class Composer {
 
   const Parameters& p_;
   Groups g_;
-  Threads threads_;
+  const Ranks& ranks_;
   std::vector<std::unique_ptr<ForceTerm<D>>> terms_;
 };
 
 }  // namespace
 
 template <int D>
-Scene<D> compose(const Parameters& p, Threads threads) {
-  Composer<D> composer(p, threads);
+Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks) {
+  Composer<D> composer(p, ranks);
   auto law = composer.stress_law();
   auto terms = composer.terms();
   composer.boundaries();
@@ -140,7 +141,7 @@ Scene<D> compose(const Parameters& p, Threads threads) {
   return scene;
 }
 
-template Scene<1> compose<1>(const Parameters&, Threads);
-template Scene<3> compose<3>(const Parameters&, Threads);
+template Scene<1> compose<1>(const Parameters&, Threads, const Ranks&);
+template Scene<3> compose<3>(const Parameters&, Threads, const Ranks&);
 
 }  // namespace treejet

@@ -34,6 +34,6 @@ struct Scene {
 };
 
 template <int D>
-Scene<D> compose(const Parameters& parameters, Threads threads);
+Scene<D> compose(const Parameters& parameters, Threads threads, const Ranks& ranks = {});
 
 }  // namespace treejet

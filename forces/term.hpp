@@ -2,14 +2,14 @@
 /// A force term: what it adds to the acceleration of the beads.
 ///
 /// A term works on a share of rows, so that one indirect call serves a whole loop. `prepare` runs once an
-/// evaluation, before any `add`, and may use all threads; `add` runs concurrently on disjoint rows and writes
-/// those rows only. Scaled: the result is a force over the mass of the bead it acts on.
+/// evaluation, before any `add`, and may use the threads it is given; `add` runs concurrently on disjoint
+/// rows and writes those rows only. Scaled: the result is a force over the mass of the bead it acts on.
 
 #include <string_view>
 
 #include "core/chain.hpp"
 #include "core/local_jacobian.hpp"
-#include "parallel/rows.hpp"
+#include "parallel/threads.hpp"
 
 namespace treejet {
 
@@ -22,7 +22,7 @@ class ForceTerm {
  public:
   virtual ~ForceTerm() = default;
   virtual std::string_view name() const = 0;
-  virtual void prepare(const Chain<D>&) {}
+  virtual void prepare(const Chain<D>&, Threads) {}
   virtual void add(const Chain<D>& chain, Rows rows, Acceleration<D>& a) const = 0;
 
   /// Adds what the term contributes to the tension's answer; nothing if its force is slow or not local.

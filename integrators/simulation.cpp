@@ -12,18 +12,20 @@ Simulation<D>::Simulation(const Deck& deck, const Scene& scene, const Setting& s
     : deck_(deck),
       jet_(scene.jet),
       setting_(setting),
-      checkpoints_(setting.outputs.directory, setting.outputs.existing),
+      checkpoints_(setting.outputs.elsewhere
+                       ? std::nullopt
+                       : std::optional<Checkpoints>({setting.outputs.directory, setting.outputs.existing})),
       stepper_(stepper<D>(chosen_scheme(deck.parameters))),
       control_(step_control(deck.parameters)),
       outputs_(deck.parameters, scene.nozzle, scene.collector, setting.outputs),
       march_({scene.jet, scene.motion, *stepper_, *control_, scene.nozzle, scene.collector,
               deck.parameters.events, deck.parameters.tolerance.value_or(0), outputs_.watchers(),
-              [this] { return pause(); }}) {}
+              [this] { return pause(); }})  {}
 
 template <int D>
 bool Simulation<D>::finish() {
   const bool arrived = march_.to(deck_.parameters.final_time / scales(deck_.parameters).time);
-  if (arrived) checkpoints_.remove();
+  if (arrived && checkpoints_) checkpoints_->remove();
   return arrived;
 }
 
@@ -31,9 +33,10 @@ template <int D>
 bool Simulation<D>::pause() {
   const Wish wish = setting_.wish();
   if (wish == Wish::go_on) return false;
+  if (!checkpoints_) return wish == Wish::stop;
   Checkpoint checkpoint{setting_.program, deck_.name, deck_.text, deck_.overrides, t(), {}};
   visit(checkpoint.state);
-  checkpoints_.write(checkpoint);
+  checkpoints_->write(checkpoint);
   return wish == Wish::stop;
 }
 

@@ -56,7 +56,7 @@ class Simulation {
   const Deck& deck_;
   const Jet<D>& jet_;
   Setting setting_;
-  Checkpoints checkpoints_;
+  std::optional<Checkpoints> checkpoints_;  ///< none if another process makes the outputs
   std::unique_ptr<Stepper<D>> stepper_;
   std::unique_ptr<StepControl> control_;
   Outputs<D> outputs_;

@@ -1,11 +1,14 @@
 #include "parallel/threads.hpp"
 
 #include <omp.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <cstdlib>
 #include <exception>
+#include <vector>
 
 #ifdef __SANITIZE_THREAD__
 #include <sanitizer/tsan_interface.h>
@@ -71,6 +74,25 @@ void for_each_block_threaded(Threads threads, Rows rows, int block, const std::f
 
 int available_cores() {
   return omp_get_num_procs();
+}
+
+CoreSet cores_of_this_process() {
+  CoreSet cores;
+  // where OpenMP has bound this thread to one of its places, its own mask shows that place only
+  for (int place = 0; place < omp_get_num_places(); ++place) {
+    std::vector<int> ids(static_cast<std::size_t>(omp_get_place_num_procs(place)));
+    omp_get_place_proc_ids(place, ids.data());
+    for (int id : ids) cores.set(static_cast<std::size_t>(id) % cores.size());
+  }
+  cpu_set_t mask;
+  if (cores.any() || sched_getaffinity(0, sizeof mask, &mask) != 0) return cores;
+  for (std::size_t id = 0; id < CPU_SETSIZE; ++id) cores[id] = CPU_ISSET(id, &mask);
+  return cores;
+}
+
+std::optional<int> threads_named() {
+  if (!std::getenv("OMP_NUM_THREADS")) return std::nullopt;
+  return omp_get_max_threads();
 }
 
 }  // namespace treejet

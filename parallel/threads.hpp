@@ -5,7 +5,9 @@
 /// counted from row 0, whatever the number of threads; a function of rows therefore gives the same bits on
 /// any number of threads. The first exception thrown is rethrown to the caller once all threads are done.
 
+#include <bitset>
 #include <functional>
+#include <optional>
 
 #include "parallel/rows.hpp"
 
@@ -29,7 +31,12 @@ void for_each_block(Threads threads, Rows rows, int block, const F& f) {
 /// write to places of their own, so that it does not matter which thread takes which.
 void for_each_task(Threads threads, int count, const std::function<void(int)>& f);
 
-/// Cores this process may run on (affinity respected).
+/// Cores this process may run on (affinity respected): how many, and which.
 int available_cores();
+using CoreSet = std::bitset<1024>;
+CoreSet cores_of_this_process();
+
+/// The number in OMP_NUM_THREADS, if there is one.
+std::optional<int> threads_named();
 
 }  // namespace treejet

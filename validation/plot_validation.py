@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the tables of treejet-validate: work_precision, orders of convergence, time reversal, stable steps.
+"""Draws the tables of treejet-validate: work_precision, orders of convergence, time reversal, stable steps, scaling.
 
     validation/plot_validation.py DIR [--out DIR]
 
@@ -158,6 +158,38 @@ def draw_stable_steps(rows, out):
     finish(figure, [panel], out / "stable_steps.png")
 
 
+def draw_scaling(rows, out):
+    """The paper's two figures: speedup and efficiency against the number of workers, one line a system size."""
+    rows = [row for row in rows if row["speedup"]]
+    kinds = [kind for kind in ("ranks", "threads", "mixed") if any(row["kind"] == kind for row in rows)]
+    sizes = sorted({(int(row["beads"]), row["sum"]) for row in rows})
+    colours = dict(zip(sizes, plt.get_cmap("viridis")(np.linspace(0, 0.9, len(sizes)))))
+    most = max(int(row["workers"]) for row in rows)
+    for column, name, label, ideal in (
+        ("speedup", "speedup.png", r"speedup $S_p = T_s / T_p$", lambda p: p),
+        ("efficiency", "efficiency.png", r"efficiency $S_p / n_p$", lambda p: 1 + 0 * p),
+    ):
+        figure, panels = plt.subplots(1, len(kinds), figsize=(4.4 * len(kinds), 4.6), squeeze=False, layout="constrained")
+        for kind, panel in zip(kinds, panels[0]):
+            workers = np.arange(1, most + 1)
+            panel.plot(workers, ideal(workers), "k--", linewidth=1, label="ideal")
+            for size in sizes:
+                points = sorted(
+                    (int(row["workers"]), number(row[column]), number(row["least [us]"]), number(row["median [us]"]), number(row["most [us]"]))
+                    for row in rows if (int(row["beads"]), row["sum"]) == size and row["kind"] in ("serial", kind)
+                )
+                p, value, least, median, greatest = np.array(points).T
+                spread = [value - value * median / greatest, value * median / least - value]
+                panel.errorbar(p, value, spread, marker="o", markersize=4, linewidth=1.3, capsize=2,
+                               color=colours[size], label=f"{size[0]} beads, {size[1]}")
+            panel.set(xlabel="workers", title=f"workers are {kind}", xticks=workers)
+            panel.set_ylim(bottom=0)
+            if column == "efficiency":
+                panel.axhline(0.8, color="0.6", linewidth=0.8, linestyle=":")
+        panels[0, 0].set_ylabel(label)
+        finish(figure, panels[0], out / name)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("tables", metavar="DIR", type=Path, help="where treejet-validate wrote its tables")
@@ -171,6 +203,7 @@ def main():
         ("time_reversal", [draw_time_reversal]),
         ("work_precision", [draw_work_precision, draw_convergence]),
         ("stable_steps", [draw_stable_steps]),
+        ("scaling", [draw_scaling]),
     ):
         path = options.tables / f"{name}.csv"
         if not path.exists():

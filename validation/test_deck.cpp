@@ -490,6 +490,13 @@ TEST_CASE("The reference has a row for every directive, with synonym, unit and d
     CHECK(keys.find(fmt::format("| `{}` |", k.key)) != std::string::npos);
 }
 
+TEST_CASE("Each way of the Coulomb sum can be named: no value hides behind a longer directive", "[deck]") {
+  for (const auto& [line, sum] : {std::pair{"coulomb direct", CoulombSum::direct},
+                                  std::pair{"coulomb tree", CoulombSum::tree},
+                                  std::pair{"coulomb auto", CoulombSum::automatic}})
+    CHECK(parse_deck(altered("", line), name).parameters.coulomb == sum);
+}
+
 TEST_CASE("No two directives share a spelling, and no two observables a key", "[deck]") {
   std::map<std::string, int> seen;
   for (const Directive& d : directives()) {

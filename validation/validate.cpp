@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.hpp"
+#include "validation/scaling_run.hpp"
 #include "validation/studies.hpp"
 
 namespace {
@@ -28,6 +29,8 @@ int run(const std::string& study, const std::string& directory, bool quick) {
     treejet::study_work_precision(report);
   } else if (study == "restart") {
     treejet::study_restart(report);
+  } else if (study == "scaling") {
+    treejet::study_scaling(report);
   } else {
     treejet::study_stiffness(report);
     treejet::study_extreme_cases(report);
@@ -49,21 +52,38 @@ int main(int argc, char** argv) {
   for (const auto& [study, meaning] :
        {std::pair{"time", "Error against work, orders of convergence, time reversal"},
         std::pair{"stability", "Largest stable steps, extreme cases"},
-        std::pair{"restart", "Runs killed at random moments and resumed"}}) {
+        std::pair{"restart", "Runs killed at random moments and resumed"},
+        std::pair{"scaling", "Speedup and efficiency of ranks and threads"}}) {
     auto& command = *app.add_subcommand(study, meaning);
     command.add_option("--out", directory, "directory of tables and pictures, made if missing")
         ->capture_default_str();
     command.add_flag("--quick", quick, "fewer and shorter runs: a minute instead of several");
   }
+  treejet::ScalingRun scaling_run;
+  bool tree = false;
+  auto& single =
+      *app.add_subcommand("scaling-run", "One measured run of the scaling study, in ranks or alone");
+  single.add_option("--refinement", scaling_run.refinement, "pieces of an element")
+      ->check(CLI::Range(1, 100000));
+  single.add_option("--threads", scaling_run.threads, "threads of each rank")->check(CLI::Range(1, 4096));
+  single.add_option("--evaluations", scaling_run.evaluations, "how many to measure")
+      ->check(CLI::Range(1, 1000000000));
+  single.add_flag("--tree", tree, "Coulomb sum by the tree");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 2;
   }
+  treejet::Ranks ranks;
   try {
+    if (single.parsed()) {
+      ranks = treejet::join_ranks();
+      if (tree) scaling_run.sum = treejet::CoulombSum::tree;
+      fmt::print("{}", text(measure(scaling_run, ranks)));
+      return 0;
+    }
     return run(app.get_subcommands().front()->get_name(), directory, quick);
   } catch (const treejet::Error& e) {
-    fmt::print(stderr, "treejet-validate: {}\n", e.what());
-    return e.exit_code();
+    return ranks.fail(e.exit_code(), fmt::format("treejet-validate: {}\n", e.what()));
   }
 }

@@ -1,0 +1,90 @@
+#pragma once
+/// Ranks: the processes that share one run, on one machine or on many.
+///
+/// Data are replicated: each rank holds everything and does the same arithmetic on it, but for tables whose
+/// rows are shared out. Of such a table a rank sets its own rows, and `gather` gives every rank all of them;
+/// what follows is again the same everywhere, bit for bit. Only the first rank writes files, and only it is
+/// heard: the standard output of the others leads nowhere.
+///
+/// A Ranks is a value. Copies stand for the same rank; a default one is alone and sends nothing. What sends
+/// (join_ranks, gather, times, agree, greatest, threads_each, crowding) is called by all ranks in the same order, by
+/// their main threads. The only mpi.h is in ranks_mpi.cpp; ranks_alone.cpp stands in for it where there is no
+/// MPI.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "parallel/threads.hpp"
+
+namespace treejet {
+
+/// The ranks are not those that were started, or not fit to work together.
+struct LaunchError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What gathering took so far: seconds of sending, and of waiting for those who came later.
+struct GatherTimes {
+  std::int64_t count = 0;
+  double exchange = 0, wait = 0;
+};
+
+/// "compute 1.2 s, exchange 0.1 s, wait 0.05 s ..." of a run that took so long; empty if nothing was sent.
+std::string times_description(const GatherTimes& times, double seconds);
+
+class Ranks {
+ public:
+  Ranks() = default;
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  bool first() const { return rank_ == 0; }
+
+  /// Equal shares of `rows` in whole blocks, counted from row 0: rank k owns borders[k] <= row <
+  /// borders[k+1].
+  std::vector<int> borders(Rows rows, int block) const;
+
+  /// Each rank has set the rows of its own share of every column; now all have all.
+  void gather(std::span<double* const> columns, const std::vector<int>& borders) const;
+
+  /// The mean over the ranks.
+  GatherTimes times() const;
+
+  /// Whether all ranks have the same text.
+  bool agree(const std::string& text) const;
+
+  /// The greatest of the ranks' numbers.
+  int greatest(int number) const;
+
+  /// Threads for each rank so that those on a node do not take each other's cores.
+  int threads_each() const;
+  /// A warning if ranks have more threads than cores of their own, on the first rank; else empty.
+  std::string crowding(Threads threads) const;
+
+  /// Ends this rank because of an error, and with it all others: returns the exit code once all have failed,
+  /// or else does not return. The message is printed once.
+  int fail(int exit_code, const std::string& message) const;
+
+ private:
+  struct World;
+  /// Threads that are confined to the cores of a rank.
+  struct Crowd {
+    int threads, cores;
+  };
+  friend Ranks join_ranks();
+
+  std::vector<Crowd> crowds(Threads threads) const;  ///< one a rank
+
+  int rank_ = 0, size_ = 1;
+  std::shared_ptr<World> world_;  ///< left when the last copy goes; null if alone
+};
+
+/// The ranks that mpirun or srun has started; one that is alone, at no cost, if neither has. LaunchError if
+/// they cannot find each other.
+Ranks join_ranks();
+
+}  // namespace treejet

@@ -1,0 +1,145 @@
+#!/bin/sh
+# Runs on several ranks and threads: the same bytes as on one, and the right end when something goes wrong.
+# Usage: ranks.sh all|some TREEJET SOURCE_TREE MPIEXEC NUMPROC_FLAG
+set -u
+extent=$1 treejet=$2 source=$3 mpiexec=$4 flag=$5
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+# A container's root may start Open MPI, on more ranks than cores, whose threads then must not spin.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+export OMP_WAIT_POLICY=passive OMP_DYNAMIC=false
+
+fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
+is() { [ "$2" = "$3" ] || fail "$1: expected '$3', found '$2'"; }
+on() { ranks=$1; shift; timeout 60 "$mpiexec" "$flag" "$ranks" "$@"; }
+
+# scene "DIRECTIVES" RANKSxTHREADS...: the files of a run by each of these against those of one rank and thread.
+# 1100 beads, enough for four threads, stream from nozzle to collector, 4.5 us a bead.
+scene() {
+  name=$(echo "$1" | tr '\n' ' ')
+  cat >deck.dat <<END
+system 3
+final time 3.d-5
+print time 2.d-6
+printstat list t x yz n f l vc curn curc rc lp angl
+print xyz 2.d-6
+print hdf5 4.d-6
+print xyz maxnum 1200
+inserting yes
+removing yes
+gravity yes
+points 1100
+initial length 1
+nozzle cross 5.d-4
+nozzle velocity 200
+density mass 0.84
+density charge 44000
+viscosity 20
+elastic modulus 50000
+collector distance 1.0005
+external potential 1.9
+surface tension 21.13
+perturb yes
+perturb freq 1.d+4
+perturb ampl 1.d-4
+$1
+finish
+END
+  shift
+  rm -rf one many
+  "$treejet" run deck.dat --quiet --threads 1 --out one 2>err || fail "$name: $(cat err)"
+  is "$name: beads removed" "$(tail -1 one/statdat.dat | awk '{print int($5)}')" 7
+  for workers; do
+    on "${workers%x*}" "$treejet" run deck.dat --quiet --threads "${workers#*x}" --out many --force 2>err ||
+      fail "$name on $workers: $(cat err)"
+    for file in statdat.dat traj.xyz traj.h5 traj.xdmf; do
+      cmp -s one/$file many/$file || fail "$name: $file differs on $workers (ranks x threads)"
+    done
+  done
+}
+
+fixed='timestep 1.d-6
+integrator heun'
+tree='coulomb tree
+coulomb accuracy 1.d-3'
+if [ "$extent" = all ]; then
+  for ranks in 1 2 3 5; do for threads in 1 2 4; do all="${all-} ${ranks}x$threads"; done; done
+  for steps in "$fixed" "tolerance 1.d-6" "tolerance 1.d-6
+multirate no" "tolerance 1.d-6
+integrator kencarp5" "$fixed
+events step"; do
+    for sum in "coulomb direct" "$tree" "$tree
+coulomb sorting space" "$tree
+coulomb expansions none" "cutoff 0.1"; do
+      # shellcheck disable=SC2086  # a list of words
+      scene "$steps
+$sum" $all
+    done
+  done
+else
+  scene "$fixed" 2x1 3x2 5x4
+  scene "$fixed
+$tree" 5x1 2x2
+  scene "tolerance 1.d-6" 3x1 2x4
+  scene "tolerance 1.d-6
+$tree" 2x1 3x4
+  scene "tolerance 1.d-6
+multirate no" 5x2
+  scene "tolerance 1.d-6
+multirate no
+$tree
+coulomb sorting space" 3x1
+fi
+
+[ "$extent" = all ] && exit $((failures > 0))
+
+# ends CODE WORDS WHAT COMMAND...: the exit code, and one message of ours, which holds the words
+ends() {
+  code=$1 words=$2 what=$3
+  shift 3
+  "$@" >out 2>err
+  is "exit code of $what" $? "$code"
+  is "messages of $what" "$(grep '^treejet: ' err | grep -vc 'treejet: warning')" 1
+  grep -q "^treejet: .*$words" err || fail "$what: no '$words' in: $(cat err)"
+}
+
+pvp=$source/examples/pvp/input.dat
+on 3 "$treejet" run "$pvp" --quiet --set "final time 1.d-3" --set "print time 1.d-4" --out few 2>err || fail "more ranks than beads: $(cat err)"
+"$treejet" run "$pvp" --quiet --set "final time 1.d-3" --set "print time 1.d-4" --out alone
+cmp -s few/statdat.dat alone/statdat.dat || fail "more ranks than beads: other numbers"
+is "versions that three ranks print" "$(on 3 "$treejet" --version | wc -l | tr -d ' ')" 1
+
+ends 2 "did you mean viscosity" "a wrong deck" on 3 "$treejet" run "$pvp" --out wrong --set "viscosty 3"
+ends 2 "not expected: --fast" "a wrong argument" on 2 "$treejet" run "$pvp" --fast
+ends 3 "likely cause" "a numerical failure" on 3 "$treejet" run "$pvp" --out stopped --quiet \
+  --set "integrator 2" --set "timestep 1.d-3" --set "final time 5.d-2" --set "print time 1.d-3"
+ends 4 "exists already" "a run over existing results" on 2 "$treejet" run "$pvp" --quiet --out few
+if [ -w /dev/full ]; then
+  mkdir full && ln -s /dev/full full/statdat.dat
+  ends 4 "writing failed" "a full disk on the first rank" on 3 "$treejet" run "$pvp" --quiet --out full --force
+fi
+ends 2 "different decks" "ranks with different decks" "$mpiexec" "$flag" 1 "$treejet" run "$pvp" --quiet --out wrong : \
+  "$flag" 1 "$treejet" run "$pvp" --quiet --set "viscosity 3." --out wrong
+ends 2 "vectors" "ranks with different vectors" "$mpiexec" "$flag" 1 "$treejet" run "$pvp" --quiet --out wrong : \
+  "$flag" 1 env TREEJET_VECTOR_PATH=plain "$treejet" run "$pvp" --quiet --out wrong
+[ -e wrong ] && fail "ranks that could not begin left something behind"
+
+# one of the ranks is killed: the others end, and the launcher tells
+mkdir killed
+# shellcheck disable=SC2016  # the ranks' shell expands it
+on 3 sh -c 'echo $$ >killed/$$.pid; exec "$@"' rank "$treejet" run "$pvp" --quiet --set "tolerance 1.d-12" --out killed/out 2>err &
+launcher=$!
+while [ "$(ls killed/*.pid 2>/dev/null | wc -l)" -lt 3 ] || [ ! -s killed/out/statdat.dat ]; do sleep 0.1; done
+kill -9 "$(cat "$(ls killed/*.pid | tail -1)")"
+wait $launcher
+code=$?
+[ $code -ne 0 ] && [ $code -ne 124 ] || fail "a killed rank: exit code $code"
+running() { for pid in killed/*.pid; do ps -o stat= -p "$(cat "$pid")"; done | grep -vc Z; }
+tries=0
+while [ "$(running)" -gt 0 ] && [ $tries -lt 50 ]; do sleep 0.1 && tries=$((tries + 1)); done
+is "ranks left running by a killed one" "$(running)" 0
+
+[ $failures = 0 ] || exit 1
