@@ -92,6 +92,7 @@ Case output_often(const char* example, double end, std::vector<std::string> over
   overrides.push_back(fmt::format("final time {}", end));
   overrides.push_back(fmt::format("print time {}", end / 67));
   overrides.push_back(fmt::format("print xyz {}", end / 31));
+  overrides.push_back(fmt::format("print hdf5 {}", end / 23));
   overrides.push_back(fmt::format("printstat list {}", all_keys));
   return {example, overrides};
 }
@@ -137,14 +138,15 @@ TEST_CASE("A run stopped and resumed at any steps leaves the same bytes as one l
     bool arrived = run(deck, parts.path, after(stop(random)));
     while (!arrived) arrived = resume(parts.path, after(1 + stop(random)), 1 + ++stops % 3);
     CHECK(stops > 3);
-    for (const char* file : {"statdat.dat", "traj.xyz"})
+    for (const char* file : {"statdat.dat", "traj.xyz", "traj.h5", "traj.xdmf"})
       CHECK(contents(whole.path / file) == contents(parts.path / file));
     CHECK_FALSE(fs::exists(parts.path / "checkpoint"));
   }
 }
 
 TEST_CASE("Saving a checkpoint between all steps changes no bit and keeps the last two") {
-  const Deck deck = deck_of({"pvp", {"final time 2.d-4", "print time 3.d-5", "print xyz 7.d-5"}});
+  const Deck deck =
+      deck_of({"pvp", {"final time 2.d-4", "print time 3.d-5", "print xyz 7.d-5", "print hdf5 5.d-5"}});
   const Place plain, saving;
   REQUIRE(run(deck, plain.path, never));
   int saved = 0;
@@ -157,9 +159,9 @@ TEST_CASE("Saving a checkpoint between all steps changes no bit and keeps the la
     return ++saved, Wish::save;
   }));
   CHECK(saved > 20);
-  for (const char* file : {"statdat.dat", "traj.xyz"})
+  for (const char* file : {"statdat.dat", "traj.xyz", "traj.h5", "traj.xdmf"})
     CHECK(contents(plain.path / file) == contents(saving.path / file));
-  CHECK(std::distance(fs::directory_iterator(saving.path), {}) == 2);
+  CHECK(std::distance(fs::directory_iterator(saving.path), {}) == 5);  // these and run.json
 }
 
 TEST_CASE("A checkpoint that is not sound is refused, and the older one gives the same bytes") {
