@@ -51,7 +51,7 @@ void run(const Deck& deck, const Arguments& a) {
   const auto scheme = stepper<D>(chosen_scheme(p));
   const auto control = step_control(p);
   const auto existing = a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
-  Outputs<D> outputs(p, scene.nozzle, scene.collector, {a.out, existing, a.quiet});
+  Outputs<D> outputs(p, scene.nozzle, scene.collector, {a.out, existing, a.quiet, scene.force_error()});
   March<D> march({scene.jet, scene.right_hand_side(), *scheme, *control, scene.nozzle, scene.collector,
                   p.events, p.tolerance.value_or(0), outputs.watchers()});
   if (!a.quiet) {

@@ -2,8 +2,8 @@
 /// The two tables of observables.
 ///
 /// statdat.dat: a first line `# key[unit] key[unit] ...`, then one row a print time, numbers with 17
-/// significant digits separated by blanks. The terminal table carries the same rows with fewer digits under a
-/// header of its own.
+/// significant digits separated by blanks. Remarks are lines that begin with `# `. The terminal table carries
+/// the same rows with fewer digits under a header of its own.
 
 #include <string>
 #include <vector>
@@ -17,6 +17,7 @@ class StatFile final : public RowSink {
  public:
   StatFile(OutputFile file, const std::vector<std::string>& keys);
   void row(const std::vector<double>& values) override;
+  void remark(const std::string& text) override;
 
  private:
   OutputFile file_;
@@ -26,6 +27,7 @@ class TerminalTable final : public RowSink {
  public:
   explicit TerminalTable(std::vector<std::string> keys) : keys_(std::move(keys)) {}
   void row(const std::vector<double>& values) override;
+  void remark(const std::string& text) override;
 
  private:
   std::vector<std::string> keys_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/accuracy_warning.hpp"
 #include "core/output_table.hpp"
 #include "core/output_xyz.hpp"
 #include "core/progress.hpp"
@@ -13,11 +14,11 @@ namespace {
 
 template <int D>
 std::unique_ptr<Recorder<D>> recorder(const Parameters& p, const Nozzle<D>& nozzle,
-                                      const Collector& collector) {
+                                      const Collector& collector, const ForceError* force_error) {
   const Scales s = scales(p);
   return std::make_unique<Recorder<D>>(
       typename Recorder<D>::Setting{nozzle, collector, s, p.nozzle_cross, p.collector_distance,
-                                    print_interval(p) / s.time, p.final_time / s.time});
+                                    print_interval(p) / s.time, p.final_time / s.time, force_error});
 }
 
 }  // namespace
@@ -25,7 +26,7 @@ std::unique_ptr<Recorder<D>> recorder(const Parameters& p, const Nozzle<D>& nozz
 template <int D>
 Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
                     const OutputSetting& setting)
-    : maxnum_(p.xyz_maxnum) {
+    : maxnum_(p.xyz_maxnum), force_error_(setting.force_error) {
   const Scales s = scales(p);
   const bool table = !p.print_list.empty() && !setting.quiet;
   const auto file = [&](const char* name) {
@@ -33,7 +34,7 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
     return OutputFile(files_.back(), setting.existing);
   };
   if (table || !p.printstat_list.empty()) {
-    auto rows = recorder<D>(p, nozzle, collector);
+    auto rows = recorder<D>(p, nozzle, collector, setting.force_error);
     if (table) rows->add(p.print_list, std::make_unique<TerminalTable>(p.print_list));
     if (!p.printstat_list.empty()) {
       rows->add(p.printstat_list, std::make_unique<StatFile>(file("statdat.dat"), p.printstat_list));
@@ -47,6 +48,7 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
     trajectory_ = trajectory.get();
     watchers_.push_back(std::move(trajectory));
   }
+  if (force_error_) watchers_.push_back(std::make_unique<AccuracyWarning<D>>(*force_error_, s.time));
   if (!setting.quiet) {
     watchers_.push_back(
         std::make_unique<Progress<D>>(p.final_time / s.time, s.time, stderr_is_interactive()));
@@ -75,6 +77,7 @@ std::vector<std::string> Outputs<D>::summary() const {
         fmt::format("traj.xyz leaves out the beads nearest to the nozzle: {} points, print xyz maxnum {}",
                     trajectory_->most_beads(), maxnum_));
   }
+  if (force_error_) lines.push_back(summary_of(*force_error_));
   return lines;
 }
 

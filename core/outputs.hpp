@@ -1,6 +1,6 @@
 #pragma once
-/// The watchers that a deck asks for: terminal table, statdat.dat, traj.xyz, progress. What it does not ask
-/// for is not made: no file, no array.
+/// The watchers that a deck asks for: terminal table, statdat.dat, traj.xyz, progress, and a warning should
+/// approximate forces miss their accuracy. What it does not ask for is not made: no file, no array.
 
 #include <filesystem>
 #include <memory>
@@ -15,6 +15,7 @@ namespace treejet {
 template <int D>
 class Nozzle;
 class Collector;
+struct ForceError;
 template <int D>
 class Trajectory;
 
@@ -22,6 +23,7 @@ struct OutputSetting {
   std::filesystem::path directory;
   OutputFile::Existing existing = OutputFile::Existing::keep;
   bool quiet = false;
+  const ForceError* force_error = nullptr;  ///< null: exact forces
 };
 
 template <int D>
@@ -41,6 +43,7 @@ class Outputs {
   std::vector<std::filesystem::path> files_;
   const Trajectory<D>* trajectory_ = nullptr;
   int maxnum_;
+  const ForceError* force_error_;
 };
 
 }  // namespace treejet

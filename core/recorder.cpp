@@ -1,5 +1,7 @@
 #include "core/recorder.hpp"
 
+#include <fmt/format.h>
+
 namespace treejet {
 
 template <int D>
@@ -38,6 +40,17 @@ Timing Recorder<D>::timing(double t) const {
   return {interval, std::chrono::duration<double>(now - started_).count(), interval * rows_left};
 }
 
+/// The rows that follow say how their forces are computed whenever that has changed.
+template <int D>
+void Recorder<D>::remark_on_forces(const Jet<D>& jet) {
+  const ForceError& forces = *setting_.force_error;
+  if (forces.choices == remarked_) return;
+  remarked_ = forces.choices;
+  for (auto& list : lists_)
+    list.sink->remark(
+        fmt::format("t = {:.6g} s, {} beads: {}", jet.t * setting_.scales.time, jet.size(), forces.method));
+}
+
 template <int D>
 void Recorder<D>::sample(const Jet<D>& jet) {
   const double fed = statistics_.charge_fed(jet), landed = statistics_.charge_landed(jet);
@@ -49,7 +62,9 @@ void Recorder<D>::sample(const Jet<D>& jet) {
                      setting_.collector_distance,
                      fed - fed_,
                      landed - landed_,
-                     timing(jet.t)};
+                     timing(jet.t),
+                     setting_.force_error};
+  if (setting_.force_error) remark_on_forces(jet);
   std::vector<double> values;
   for (auto& list : lists_) {
     values.clear();

@@ -11,11 +11,12 @@
 
 namespace treejet {
 
-/// Takes the rows of a list of keys.
+/// Takes the rows of a list of keys, and remarks on the rows that follow.
 class RowSink {
  public:
   virtual ~RowSink() = default;
   virtual void row(const std::vector<double>& values) = 0;
+  virtual void remark(const std::string&) {}
 };
 
 template <int D>
@@ -27,6 +28,7 @@ class Recorder final : public Sampling<D> {
     Scales scales;
     double nozzle_radius, collector_distance;  ///< cm
     double interval, end;                      ///< scaled
+    const ForceError* force_error = nullptr;   ///< null: exact forces
   };
 
   explicit Recorder(const Setting& setting);
@@ -52,11 +54,13 @@ class Recorder final : public Sampling<D> {
   using Clock = std::chrono::steady_clock;
 
   Timing timing(double t) const;
+  void remark_on_forces(const Jet<D>& jet);
 
   Setting setting_;
   Statistics<D> statistics_;
   std::vector<List> lists_;
   double fed_ = 0, landed_ = 0;
+  int remarked_ = 0;  ///< choices of a method for the forces
   Clock::time_point started_, last_row_;
 };
 

@@ -9,7 +9,6 @@ namespace treejet {
 
 namespace {
 
-constexpr int sampled_points = 1024;
 constexpr double margin = 1.25;
 /// Below this accuracy a near field in single precision is not tried.
 constexpr double finest_single = 3e-5;
@@ -22,8 +21,7 @@ int usual_order(double accuracy) {
   return std::clamp(static_cast<int>(std::lround(-1.35 * std::log10(accuracy))), 3, 13);
 }
 
-/// The mean of E^2 over the points, the largest hundredth taken as nothing: in a cloud a few close pairs may
-/// hold most of it, and the promise is to hold for a sample without them as well.
+/// The mean of E^2 over the points, the largest hundredth taken as nothing (SampledError).
 double typical_square(const std::vector<double> (&E)[3]) {
   std::vector<double> squares;
   for (std::size_t i = 0; i < E[0].size(); ++i) {
@@ -57,25 +55,28 @@ CoulombSample::CoulombSample(int points, CoulombTree& tree, Threads threads)
   tree.evaluate_directly(leaves_, field, threads);
 }
 
-double CoulombSample::error(CoulombTree& tree, Threads threads) {
+SampledError CoulombSample::error(CoulombTree& tree, Threads threads) {
   tree.evaluate(leaves_, {0, n_}, {tried_[0].data(), tried_[1].data(), tried_[2].data()}, threads);
-  double sum = 0, sum_squares = 0, count = 0;
+  double sum = 0, sum_squares = 0, count = 0, largest = 0;
   for (const auto& points : points_of_leaf_) {
     double square = 0;
     for (int k : points) {
       const auto i = static_cast<std::size_t>(k);
       double difference2 = 0;
       for (std::size_t e = 0; e < 3; ++e) difference2 += std::pow(tried_[e][i] - direct_[e][i], 2);
-      if (std::isfinite(difference2)) square += difference2 / static_cast<double>(points.size());
+      if (!std::isfinite(difference2)) continue;
+      square += difference2 / static_cast<double>(points.size());
+      largest = std::max(largest, difference2);
     }
     sum += square;
     sum_squares += square * square;
     ++count;
   }
-  if (mean_square_ == 0) return 0;
+  if (mean_square_ == 0) return {};
   const double mean = sum / count;
   const double spread = std::sqrt(std::max(0.0, sum_squares / count - mean * mean) / count);
-  return margin * std::sqrt((mean + 2 * spread) / mean_square_);
+  return {std::sqrt(mean / mean_square_), std::sqrt(largest / mean_square_),
+          margin * std::sqrt((mean + 2 * spread) / mean_square_)};
 }
 
 double price(const Interactions& work, const TreeShape& shape, int points, VectorPath path) {
@@ -108,9 +109,7 @@ TreeShape cheapest_order(const PointCharges<3>& points, const CoulombRequest& re
   for (int block : {0, 16, 4, 1}) {
     if (request.space && *request.space != (block > 0)) continue;
     shape.block = block;
-    TreeShape cheap = shape;
-    cheap.order = 2;
-    tree.arrange(points, cheap, threads);
+    tree.place(points, shape, threads);
     const double work = price(tree.count(), shape, points.n, path);
     if (work < least) {
       least = work;
@@ -127,7 +126,6 @@ struct Search {
   VectorPath path;
   CoulombTree& tree;
   Threads threads;
-  double least = std::numeric_limits<double>::infinity();
   CoulombChoice best{};
 
   /// The widest opening that is accurate enough at each of these orders, from a bit wider than `widest` down.
@@ -141,19 +139,13 @@ struct Search {
   void try_openings(int order, CoulombSample& sample, double widest) {
     for (double opening = request.opening.value_or(widest); opening > narrowest_opening; opening *= step) {
       tree.reshape(order, opening, threads);
-      const double error = sample.error(tree, threads);
-      ++best.measurements;
+      const SampledError error = sample.error(tree, threads);
       const bool pinned = request.opening.has_value();
-      if (error <= request.accuracy || (pinned && request.order)) {
+      if (error.bound <= request.accuracy || (pinned && request.order)) {
         const Interactions counted = tree.count();
         if (counted.expansions == 0 && !pinned) return;  // all pairs are near: a direct sum in disguise
         const double work = price(counted, tree.shape(), points.n, path);
-        if (work < least) {
-          least = work;
-          best.direct = false;
-          best.shape = tree.shape();
-          best.expected_error = error;
-        }
+        if (work < best.work) best = {false, {}, tree.shape(), error, work};
         return;
       }
       if (pinned) return;
@@ -198,12 +190,13 @@ CoulombChoice coulomb_choice(const PointCharges<3>& points, const CoulombRequest
   CoulombChoice& choice = search.best;
   if (choice.direct) {
     choice.reason = "no tree is as accurate as asked for";
-  } else if (automatic && search.least > 0.9 * static_cast<double>(points.n) * points.n) {
+  } else if (automatic && search.best.work > 0.9 * static_cast<double>(points.n) * points.n) {
     choice.direct = true;
+    choice.error = {};
     choice.reason = "no tree of this accuracy would be faster";
   } else {
-    choice.reason = choice.expected_error <= request.accuracy ? "cheapest accurate shape"
-                                                              : "pinned: less accurate than asked for";
+    choice.reason = choice.error.bound <= request.accuracy ? "cheapest accurate shape"
+                                                           : "pinned: less accurate than asked for";
     tree.arrange(points, choice.shape, threads);
   }
   return choice;

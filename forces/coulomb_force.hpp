@@ -32,7 +32,7 @@ class CoulombForce final : public ForceTerm<D> {
     field_.resize(c.beads, Eigen::NoChange);
     if constexpr (D == 3) {
       if (!solver_) return;
-      solver_->field(charges(c), {0, c.beads}, field_arrays(), threads_);
+      solver_->field(charges(c), {0, c.beads}, field_arrays(), worthwhile(threads_, c.beads));
       if (solver_->report().coincident > 0) throw NumericalError("two beads of the jet are at one place");
     }
   }
@@ -51,8 +51,8 @@ class CoulombForce final : public ForceTerm<D> {
   /// E at the beads, as `add` last computed it.
   const typename Chain<D>::Points& field() const { return field_; }
 
-  /// The sum to a stated error, null if it is direct.
-  const CoulombSolver* solver() const { return solver_.get(); }
+  /// The error of a sum to a stated error, null if it is direct.
+  const ForceError* error() const { return solver_ ? &solver_->report().error : nullptr; }
 
  private:
   static PointCharges<D> charges(const Chain<D>& c) {

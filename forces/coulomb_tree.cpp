@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "forces/barnes_hut.hpp"
 #include "forces/multipole.hpp"
 #include "forces/space_order.hpp"
 #include "forces/traversal.hpp"
@@ -25,8 +26,8 @@ constexpr int leaves_a_task = 64, cells_a_task = 512;
 
 }  // namespace
 
-void CoulombTree::arrange(const PointCharges<3>& points, const TreeShape& shape, Threads threads,
-                          bool keep_order) {
+void CoulombTree::place(const PointCharges<3>& points, const TreeShape& shape, Threads threads,
+                        bool keep_order) {
   const bool same_cells = cells_.points() == points.n && cells_.leaf() == shape.leaf;
   if (!same_cells) cells_ = Cells(points.n, shape.leaf);
   if (shape.block == 0)
@@ -38,19 +39,19 @@ void CoulombTree::arrange(const PointCharges<3>& points, const TreeShape& shape,
   charge_unit_ = 0;
   for (double q : q_) charge_unit_ = std::max(charge_unit_, std::abs(q));
   if (!(charge_unit_ > 0)) charge_unit_ = 1;
-  cells_.enclose({{r_[0].data(), r_[1].data(), r_[2].data()}, q_.data(), 0, points.n}, kernels_->reach,
-                 threads);
-  expand(shape.order, threads);
+  cells_.enclose(all_points(), kernels_->reach, threads);
 }
 
 void CoulombTree::reshape(int order, double opening, Threads threads) {
   shape_.opening = opening;
-  if (order != shape_.order) expand(order, threads);
+  if (order == shape_.order) return;
   shape_.order = order;
+  expand(threads);
 }
 
-void CoulombTree::expand(int order, Threads threads) {
-  expansions_ = {order, padded(Series::terms(order - 1)), padded(Series::terms(order)), {}, {}, {}};
+void CoulombTree::expand(Threads threads) {
+  const int order = shape_.order;
+  expansions_ = {order, padded(Series::terms(order - 1)), padded(Series::terms(order)), {}, {}, {}, false};
   for (int e = 0; e < 3; ++e) expansions_.centre[e] = cells_.centre(e);
   moments_.resize(index(cells_.size()) * index(expansions_.moment_stride));
   locals_.resize(index(cells_.size()) * index(expansions_.local_stride));
@@ -60,7 +61,7 @@ void CoulombTree::expand(int order, Threads threads) {
 }
 
 void CoulombTree::copy_points(const PointCharges<3>& points, Threads threads) {
-  for (auto* values : {&r_[0], &r_[1], &r_[2], &q_, &field_[0], &field_[1], &field_[2]})
+  for (auto* values : {&r_[0], &r_[1], &r_[2], &q_, &sum_[0], &sum_[1], &sum_[2]})
     values->resize(index(points.n));
   for_each_block(threads, {0, points.n}, 4096, [&](Rows rows) {
     for (int k = rows.first; k < rows.last; ++k) {
@@ -71,9 +72,16 @@ void CoulombTree::copy_points(const PointCharges<3>& points, Threads threads) {
   });
 }
 
+CellPoints CoulombTree::all_points() const {
+  return {{r_[0].data(), r_[1].data(), r_[2].data()}, q_.data(), 0, cells_.points()};
+}
+
 CellPoints CoulombTree::leaf_cell(int leaf) const {
+  CellPoints points = all_points();
   const Rows rows = cells_.leaf_points(leaf);
-  return {{r_[0].data(), r_[1].data(), r_[2].data()}, q_.data(), rows.first, rows.size()};
+  points.first = rows.first;
+  points.count = rows.size();
+  return points;
 }
 
 void CoulombTree::move_up(Threads threads) {
@@ -125,41 +133,47 @@ std::vector<int> CoulombTree::points_of(int leaf) const {
   return points;
 }
 
-Interactions CoulombTree::evaluate(const std::vector<int>& leaves, Rows rows, const FieldArrays<3>& field,
-                                   Threads threads) {
+void CoulombTree::want(const std::vector<int>& leaves) {
   wanted_.assign(index(cells_.size()), 0);
   for (int l = 0; l < cells_.levels(); ++l)
     for (int leaf : leaves) wanted_[index(cells_.level(l).first + (leaf >> (cells_.levels() - 1 - l)))] = 1;
+}
 
-  const Interactions done = shape_.local ? local_expansions(threads) : barnes_hut(threads);
+Interactions CoulombTree::evaluate(const std::vector<int>& leaves, Rows rows, const FieldArrays<3>& field,
+                                   Threads threads, double* potential) {
+  expansions_.potential = potential != nullptr;
+  sum_[3].resize(potential ? q_.size() : 0);
+  const Interactions done = shape_.local ? local_expansions(leaves, threads) : barnes_hut(leaves, threads);
   for_each_block(threads, {0, static_cast<int>(leaves.size())}, leaves_a_task, [&](Rows some) {
-    for (int n = some.first; n < some.last; ++n) {
-      const int leaf = leaves[index(n)];
-      const CellPoints points = leaf_cell(leaf);
-      double* const E[3] = {field_[0].data(), field_[1].data(), field_[2].data()};
-      if (shape_.local) kernels_->l2p(expansions_, cells_.level(cells_.levels() - 1).first + leaf, points, E);
-      give(leaf, rows, field);
-    }
+    for (int n = some.first; n < some.last; ++n) give(leaves[index(n)], rows, field, potential);
   });
   return done;
+}
+
+Interactions CoulombTree::barnes_hut(const std::vector<int>& leaves, Threads threads) {
+  const BarnesHut treecode(cells_, expansions_, all_points(), shape_.opening);
+  std::vector<Interactions> done(leaves.size());
+  for_each_task(threads, static_cast<int>(leaves.size()),
+                [&](int n) { done[index(n)] = treecode.act_on(leaves[index(n)], sums().data()); });
+  return total(done);
 }
 
 void CoulombTree::evaluate_directly(const std::vector<int>& leaves, const FieldArrays<3>& field,
                                     Threads threads) {
   const CellRange all = {0, cells_.points()};
   for_each_task(threads, static_cast<int>(leaves.size()), [&](int n) {
-    double* const E[3] = {field_[0].data(), field_[1].data(), field_[2].data()};
-    kernels_->p2p(leaf_cell(leaves[index(n)]), &all, 1, E);
-    give(leaves[index(n)], {all.first, all.last}, field);
+    kernels_->p2p(leaf_cell(leaves[index(n)]), &all, 1, sums().data());
+    give(leaves[index(n)], {all.first, all.last}, field, nullptr);
   });
 }
 
-void CoulombTree::give(int leaf, Rows rows, const FieldArrays<3>& field) const {
+void CoulombTree::give(int leaf, Rows rows, const FieldArrays<3>& field, double* potential) const {
   const Rows points = cells_.leaf_points(leaf);
   for (int k = points.first; k < points.last; ++k) {
     const int i = source(k);
-    if (i >= rows.first && i < rows.last)
-      for (std::size_t e = 0; e < 3; ++e) field[e][i] = field_[e][index(k)];
+    if (i < rows.first || i >= rows.last) continue;
+    for (std::size_t e = 0; e < 3; ++e) field[e][i] = sum_[e][index(k)];
+    if (potential) potential[i] = sum_[3][index(k)];
   }
 }
 
@@ -173,18 +187,20 @@ void CoulombTree::act_near(int leaf, std::span<const int> near) {
     else
       sources.push_back({rows.first, rows.last});
   }
-  double* const E[3] = {field_[0].data(), field_[1].data(), field_[2].data()};
   const CellPoints target = leaf_cell(leaf);
   const int count = static_cast<int>(sources.size());
-  if (!shape_.single) return kernels_->p2p(target, sources.data(), count, E);
+  if (expansions_.potential)
+    return kernels_->p2p_with_potential(target, sources.data(), count, sums().data());
+  if (!shape_.single) return kernels_->p2p(target, sources.data(), count, sums().data());
   const int cell = cells_.level(cells_.levels() - 1).first + leaf;
   NearUnits unit = {{}, cells_.radius()[cell], charge_unit_};
   for (int e = 0; e < 3; ++e) unit.centre[e] = cells_.centre(e)[cell];
   if (!(unit.length > 0)) unit.length = 1;
-  kernels_->p2p_single(target, sources.data(), count, unit, E);
+  kernels_->p2p_single(target, sources.data(), count, unit, sums().data());
 }
 
-Interactions CoulombTree::local_expansions(Threads threads) {
+Interactions CoulombTree::local_expansions(const std::vector<int>& leaves, Threads threads) {
+  want(leaves);
   struct Task {
     int level, cell;
     std::vector<int> sources;  ///< far cells of one target cell above the cut, or candidates of a subtree
@@ -227,9 +243,12 @@ Interactions CoulombTree::local_expansions(Threads threads) {
       far(task.cell, task.sources);
   });
   move_down(threads);
-  return std::accumulate(done.begin(), done.end(), Interactions{}, [](Interactions a, const Interactions& b) {
-    return Interactions{a.pairs + b.pairs, a.expansions + b.expansions};
+  const int bottom = cells_.level(cells_.levels() - 1).first;
+  for_each_block(threads, {0, static_cast<int>(leaves.size())}, leaves_a_task, [&](Rows some) {
+    for (int n = some.first; n < some.last; ++n)
+      kernels_->l2p(expansions_, bottom + leaves[index(n)], leaf_cell(leaves[index(n)]), sums().data());
   });
+  return total(done);
 }
 
 Interactions CoulombTree::count() const {
@@ -262,61 +281,6 @@ void CoulombTree::move_down(Threads threads) {
       }
     });
   }
-}
-
-/// The textbook: each point walks the tree by itself; a cell acts by its moments if r_A < opening * distance.
-Interactions CoulombTree::barnes_hut(Threads threads) {
-  const int bottom = cells_.levels() - 1;
-  const CellRange leaves = cells_.level(bottom);
-  std::vector<Interactions> done(index(cells_.leaves()));
-  for_each_task(threads, cells_.leaves(), [&](int leaf) {
-    if (!wanted(leaves.first + leaf)) return;
-    const Rows rows = cells_.leaf_points(leaf);
-    for (int i = rows.first; i < rows.last; ++i) {
-      Vector3 E{};
-      std::vector<std::array<int, 2>> open = {{0, 0}};  // level, place in it
-      while (!open.empty()) {
-        const auto [level, k] = open.back();
-        open.pop_back();
-        const int cell = cells_.level(level).first + k;
-        Vector3 d{};
-        double d2 = 0;
-        for (std::size_t e = 0; e < 3; ++e) {
-          d[e] = r_[e][index(i)] - cells_.centre(static_cast<int>(e))[cell];
-          d2 += d[e] * d[e];
-        }
-        const double radius = cells_.radius()[cell];
-        if (radius * radius < shape_.opening * shape_.opening * d2) {
-          Series M(shape_.order - 1);
-          std::copy_n(expansions_.moments + static_cast<std::int64_t>(cell) * expansions_.moment_stride,
-                      Series::terms(shape_.order - 1), M.data());
-          const Vector3 far = m2p(M, d);
-          for (std::size_t e = 0; e < 3; ++e) E[e] += far[e];
-          ++done[index(leaf)].expansions;
-        } else if (level == bottom) {
-          const Rows near = cells_.leaf_points(k);
-          done[index(leaf)].pairs += near.size();
-          for (int j = near.first; j < near.last; ++j) {
-            if (j == i) continue;
-            double s2 = 0, s[3];
-            for (std::size_t e = 0; e < 3; ++e) {
-              s[e] = r_[e][index(i)] - r_[e][index(j)];
-              s2 += s[e] * s[e];
-            }
-            for (std::size_t e = 0; e < 3; ++e) E[e] += q_[index(j)] * s[e] / (s2 * std::sqrt(s2));
-          }
-        } else {
-          const CellRange next = cells_.level(level + 1);
-          if (next.first + 2 * k + 1 < next.last) open.push_back({level + 1, 2 * k + 1});
-          open.push_back({level + 1, 2 * k});
-        }
-      }
-      for (std::size_t e = 0; e < 3; ++e) field_[e][index(i)] = E[e];
-    }
-  });
-  return std::accumulate(done.begin(), done.end(), Interactions{}, [](Interactions a, const Interactions& b) {
-    return Interactions{a.pairs + b.pairs, a.expansions + b.expansions};
-  });
 }
 
 }  // namespace treejet

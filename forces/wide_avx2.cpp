@@ -52,7 +52,9 @@ struct Avx2 {
 
 const WideKernels wide_avx2 = {direct<Avx2, 1>,
                                direct<Avx2, 3>,
+                               direct<Avx2, 3, true>,
                                p2p<Avx2>,
+                               p2p<Avx2, true>,
                                p2p_single<Avx2>,
                                ExpansionKernel<Avx2>::reach,
                                ExpansionKernel<Avx2>::p2m,

@@ -26,9 +26,12 @@ int run(const std::string& study, const std::string& directory, bool quick) {
     treejet::study_time_reversal(report);
     treejet::study_reference_values(report);
     treejet::study_work_precision(report);
-  } else {
+  } else if (study == "stability") {
     treejet::study_stiffness(report);
     treejet::study_extreme_cases(report);
+  } else {
+    treejet::study_coulomb_accuracy(report);
+    treejet::study_coulomb_cost(report);
   }
   const int failures = report.conclude("checks_" + study);
   if (draw(directory) != 0) fmt::print(stderr, "treejet-validate: the pictures could not be drawn\n");
@@ -46,7 +49,9 @@ int main(int argc, char** argv) {
   bool quick = false;
   for (const auto& [study, meaning] :
        {std::pair{"time", "Error against work, orders of convergence, time reversal"},
-        std::pair{"stability", "Largest stable steps, extreme cases"}}) {
+        std::pair{"stability", "Largest stable steps, extreme cases"},
+        std::pair{"coulomb",
+                  "The Coulomb field: error against time, crossover with the direct sum, growth"}}) {
     auto& command = *app.add_subcommand(study, meaning);
     command.add_option("--out", directory, "directory of tables and pictures, made if missing")
         ->capture_default_str();
