@@ -31,15 +31,12 @@ void CoulombTree::place(const PointCharges<3>& points, const TreeShape& shape, T
   const bool same_cells = cells_.points() == points.n && cells_.leaf() == shape.leaf;
   if (!same_cells) cells_ = Cells(points.n, shape.leaf);
   if (shape.block == 0)
-    order_.clear();
+    points_.reorder({});
   else if (!keep_order || !same_cells || shape.block != shape_.block)
-    order_ = space_order(points.r.data(), points.n, shape.leaf, shape.block, threads);
+    points_.reorder(space_order(points.r.data(), points.n, shape.leaf, shape.block, threads));
   shape_ = shape;
-  copy_points(points, threads);
-  charge_unit_ = 0;
-  for (double q : q_) charge_unit_ = std::max(charge_unit_, std::abs(q));
-  if (!(charge_unit_ > 0)) charge_unit_ = 1;
-  cells_.enclose(all_points(), kernels_->reach, threads);
+  points_.read(points, threads);
+  cells_.enclose(points_.points({0, points.n}), kernels_->reach, threads);
 }
 
 void CoulombTree::reshape(int order, double opening, Threads threads) {
@@ -60,28 +57,8 @@ void CoulombTree::expand(Threads threads) {
   move_up(threads);
 }
 
-void CoulombTree::copy_points(const PointCharges<3>& points, Threads threads) {
-  for (auto* values : {&r_[0], &r_[1], &r_[2], &q_, &sum_[0], &sum_[1], &sum_[2]})
-    values->resize(index(points.n));
-  for_each_block(threads, {0, points.n}, 4096, [&](Rows rows) {
-    for (int k = rows.first; k < rows.last; ++k) {
-      const int i = source(k);
-      for (std::size_t e = 0; e < 3; ++e) r_[e][index(k)] = points.r[e][i];
-      q_[index(k)] = points.q[i];
-    }
-  });
-}
-
-CellPoints CoulombTree::all_points() const {
-  return {{r_[0].data(), r_[1].data(), r_[2].data()}, q_.data(), 0, cells_.points()};
-}
-
 CellPoints CoulombTree::leaf_cell(int leaf) const {
-  CellPoints points = all_points();
-  const Rows rows = cells_.leaf_points(leaf);
-  points.first = rows.first;
-  points.count = rows.size();
-  return points;
+  return points_.points(cells_.leaf_points(leaf));
 }
 
 void CoulombTree::move_up(Threads threads) {
@@ -100,36 +77,28 @@ void CoulombTree::move_up(Threads threads) {
 }
 
 std::vector<int> CoulombTree::leaves_of(Rows rows) const {
-  if (order_.empty() || rows.size() == cells_.points()) {
+  if (points_.in_callers_order() || rows.size() == cells_.points()) {
     std::vector<int> all(index((rows.last + shape_.leaf - 1) / shape_.leaf - rows.first / shape_.leaf));
     std::iota(all.begin(), all.end(), rows.first / shape_.leaf);
     return all;
   }
   std::vector<int> some;
-  for (int leaf = 0; leaf < cells_.leaves(); ++leaf)
-    for (int i : points_of(leaf))
-      if (i >= rows.first && i < rows.last) {
-        some.push_back(leaf);
-        break;
-      }
-  return some;
-}
-
-std::vector<int> CoulombTree::sample_leaves(int count) const {
-  std::vector<int> sample;
-  const int all = cells_.leaves();
-  for (int k = 0; k < count; ++k) {
-    const double jitter = 0.618033988749895 * k;  // golden ratio: no stride of the jet can be in step with it
-    const int leaf = static_cast<int>((k + jitter - static_cast<int>(jitter)) * all / count);
-    if (sample.empty() || sample.back() != leaf) sample.push_back(leaf);
+  for (int leaf = 0; leaf < cells_.leaves(); ++leaf) {
+    const Rows places = cells_.leaf_points(leaf);
+    const auto asked = [&](int k) {
+      return points_.source(k) >= rows.first && points_.source(k) < rows.last;
+    };
+    int k = places.first;
+    while (k < places.last && !asked(k)) ++k;
+    if (k < places.last) some.push_back(leaf);
   }
-  return sample;
+  return some;
 }
 
 std::vector<int> CoulombTree::points_of(int leaf) const {
   const Rows rows = cells_.leaf_points(leaf);
   std::vector<int> points(index(rows.size()));
-  for (int k = rows.first; k < rows.last; ++k) points[index(k - rows.first)] = source(k);
+  for (int k = rows.first; k < rows.last; ++k) points[index(k - rows.first)] = points_.source(k);
   return points;
 }
 
@@ -142,19 +111,20 @@ void CoulombTree::want(const std::vector<int>& leaves) {
 Interactions CoulombTree::evaluate(const std::vector<int>& leaves, Rows rows, const FieldArrays<3>& field,
                                    Threads threads, double* potential) {
   expansions_.potential = potential != nullptr;
-  sum_[3].resize(potential ? q_.size() : 0);
+  points_.keep_potential(expansions_.potential);
   const Interactions done = shape_.local ? local_expansions(leaves, threads) : barnes_hut(leaves, threads);
   for_each_block(threads, {0, static_cast<int>(leaves.size())}, leaves_a_task, [&](Rows some) {
-    for (int n = some.first; n < some.last; ++n) give(leaves[index(n)], rows, field, potential);
+    for (int n = some.first; n < some.last; ++n)
+      points_.give(cells_.leaf_points(leaves[index(n)]), rows, field, potential);
   });
   return done;
 }
 
 Interactions CoulombTree::barnes_hut(const std::vector<int>& leaves, Threads threads) {
-  const BarnesHut treecode(cells_, expansions_, all_points(), shape_.opening);
+  const BarnesHut treecode(cells_, expansions_, points_.points({0, points_.size()}), shape_.opening);
   std::vector<Interactions> done(leaves.size());
   for_each_task(threads, static_cast<int>(leaves.size()),
-                [&](int n) { done[index(n)] = treecode.act_on(leaves[index(n)], sums().data()); });
+                [&](int n) { done[index(n)] = treecode.act_on(leaves[index(n)], points_.sums().data()); });
   return total(done);
 }
 
@@ -162,19 +132,9 @@ void CoulombTree::evaluate_directly(const std::vector<int>& leaves, const FieldA
                                     Threads threads) {
   const CellRange all = {0, cells_.points()};
   for_each_task(threads, static_cast<int>(leaves.size()), [&](int n) {
-    kernels_->p2p(leaf_cell(leaves[index(n)]), &all, 1, sums().data());
-    give(leaves[index(n)], {all.first, all.last}, field, nullptr);
+    kernels_->p2p(leaf_cell(leaves[index(n)]), &all, 1, points_.sums().data());
+    points_.give(cells_.leaf_points(leaves[index(n)]), {all.first, all.last}, field, nullptr);
   });
-}
-
-void CoulombTree::give(int leaf, Rows rows, const FieldArrays<3>& field, double* potential) const {
-  const Rows points = cells_.leaf_points(leaf);
-  for (int k = points.first; k < points.last; ++k) {
-    const int i = source(k);
-    if (i < rows.first || i >= rows.last) continue;
-    for (std::size_t e = 0; e < 3; ++e) field[e][i] = sum_[e][index(k)];
-    if (potential) potential[i] = sum_[3][index(k)];
-  }
 }
 
 /// Neighbouring leaves are neighbouring points: one range of sources.
@@ -190,13 +150,13 @@ void CoulombTree::act_near(int leaf, std::span<const int> near) {
   const CellPoints target = leaf_cell(leaf);
   const int count = static_cast<int>(sources.size());
   if (expansions_.potential)
-    return kernels_->p2p_with_potential(target, sources.data(), count, sums().data());
-  if (!shape_.single) return kernels_->p2p(target, sources.data(), count, sums().data());
+    return kernels_->p2p_with_potential(target, sources.data(), count, points_.sums().data());
+  if (!shape_.single) return kernels_->p2p(target, sources.data(), count, points_.sums().data());
   const int cell = cells_.level(cells_.levels() - 1).first + leaf;
-  NearUnits unit = {{}, cells_.radius()[cell], charge_unit_};
+  NearUnits unit = {{}, cells_.radius()[cell], points_.charge_unit()};
   for (int e = 0; e < 3; ++e) unit.centre[e] = cells_.centre(e)[cell];
   if (!(unit.length > 0)) unit.length = 1;
-  kernels_->p2p_single(target, sources.data(), count, unit, sums().data());
+  kernels_->p2p_single(target, sources.data(), count, unit, points_.sums().data());
 }
 
 Interactions CoulombTree::local_expansions(const std::vector<int>& leaves, Threads threads) {
@@ -246,7 +206,8 @@ Interactions CoulombTree::local_expansions(const std::vector<int>& leaves, Threa
   const int bottom = cells_.level(cells_.levels() - 1).first;
   for_each_block(threads, {0, static_cast<int>(leaves.size())}, leaves_a_task, [&](Rows some) {
     for (int n = some.first; n < some.last; ++n)
-      kernels_->l2p(expansions_, bottom + leaves[index(n)], leaf_cell(leaves[index(n)]), sums().data());
+      kernels_->l2p(expansions_, bottom + leaves[index(n)], leaf_cell(leaves[index(n)]),
+                    points_.sums().data());
   });
   return total(done);
 }

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "forces/cells.hpp"
-#include "forces/coulomb.hpp"
 #include "forces/interactions.hpp"
+#include "forces/ordered_points.hpp"
 #include "forces/wide_kernels.hpp"
 
 namespace treejet {
@@ -46,9 +46,9 @@ class CoulombTree {
   /// The same points, another order or opening.
   void reshape(int order, double opening, Threads threads);
 
-  /// The leaves that hold points of `rows`, and a sample of `count` leaves spread over the tree.
+  int leaves() const { return cells_.leaves(); }
+  /// The leaves that hold points of `rows`.
   std::vector<int> leaves_of(Rows rows) const;
-  std::vector<int> sample_leaves(int count) const;
   /// The points of a leaf, by their place in the caller's arrays.
   std::vector<int> points_of(int leaf) const;
 
@@ -65,17 +65,12 @@ class CoulombTree {
   const TreeShape& shape() const { return shape_; }
 
  private:
-  int source(int k) const { return order_.empty() ? k : order_[static_cast<std::size_t>(k)]; }
-  void copy_points(const PointCharges<3>& points, Threads threads);
   void move_up(Threads threads);
   void move_down(Threads threads);
-  void give(int leaf, Rows rows, const FieldArrays<3>& field, double* potential) const;
   void want(const std::vector<int>& leaves);
   Interactions local_expansions(const std::vector<int>& leaves, Threads threads);
   Interactions barnes_hut(const std::vector<int>& leaves, Threads threads);
   void act_near(int leaf, std::span<const int> near);
-  std::array<double*, 4> sums() { return {sum_[0].data(), sum_[1].data(), sum_[2].data(), sum_[3].data()}; }
-  CellPoints all_points() const;
   CellPoints leaf_cell(int leaf) const;
   bool wanted(int cell) const { return wanted_[static_cast<std::size_t>(cell)]; }
 
@@ -83,11 +78,9 @@ class CoulombTree {
   TreeShape shape_;
   Cells cells_;
   Expansions expansions_{};
-  std::vector<int> order_;
-  std::vector<double> r_[3], q_, moments_, locals_;
-  std::vector<double> sum_[4];  ///< field and, if wanted, potential, in tree order
+  OrderedPoints points_;
+  std::vector<double> moments_, locals_;
   std::vector<char> wanted_;
-  double charge_unit_ = 1;  ///< largest |q|
 };
 
 }  // namespace treejet
