@@ -44,8 +44,8 @@ Timing Recorder<D>::timing(double t) const {
 template <int D>
 void Recorder<D>::remark_on_forces(const Jet<D>& jet) {
   const ForceError& forces = *setting_.force_error;
-  if (forces.choices == remarked_) return;
-  remarked_ = forces.choices;
+  if (forces.method == remarked_) return;
+  remarked_ = forces.method;
   for (auto& list : lists_)
     list.sink->remark(
         fmt::format("t = {:.6g} s, {} beads: {}", jet.t * setting_.scales.time, jet.size(), forces.method));

@@ -60,7 +60,7 @@ class Recorder final : public Sampling<D> {
   Statistics<D> statistics_;
   std::vector<List> lists_;
   double fed_ = 0, landed_ = 0;
-  int remarked_ = 0;  ///< choices of a method for the forces
+  std::string remarked_;  ///< how the forces of the last row were computed
   Clock::time_point started_, last_row_;
 };
 

@@ -16,6 +16,9 @@ namespace {
 constexpr int sorted_every = 16;
 /// Part of the work that measuring the error may take.
 constexpr double measuring_share = 0.03;
+/// What a shape's opening may be narrowed by at a measurement.
+constexpr double narrowing = 0.93;
+constexpr int narrowings = 4;
 
 bool differs_by(double part, int n, int before) {
   return std::abs(n - before) > part * before;
@@ -104,11 +107,20 @@ int CoulombSolver::measuring_interval(int n) const {
   return static_cast<int>(std::min(1e6, (work + double(sampled_points) * n) / (measuring_share * work)));
 }
 
+/// A shape that has become too inaccurate gets a somewhat narrower opening, which costs less than a search;
+/// only if that does not help it is chosen anew.
 void CoulombSolver::measure(const PointCharges<3>& points, Threads threads) {
   CoulombSample sample(points.n, tree_, threads);
   record(sample.error(tree_, threads));
   since_measurement_ = 0;
   measured_for_ = points.n;
+  TreeShape& shape = report_.shape;
+  for (int k = 0; k < narrowings && report_.expected_error > request_.accuracy && !request_.opening; ++k) {
+    shape.opening *= narrowing;
+    tree_.reshape(shape.order, shape.opening, threads);
+    record(sample.error(tree_, threads));
+    report_.error.method = description(report_);
+  }
   if (report_.expected_error > request_.accuracy && !(request_.order && request_.opening))
     choose(points, threads);
 }

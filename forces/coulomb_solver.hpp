@@ -11,9 +11,10 @@
 /// How the promise is kept: errors are measured, not bounded, because neighbours on a chain cancel and
 /// amplify every error 10 to 100 times. A shape is taken only if the errors of sampled leaves against direct
 /// summation, with an allowance for the spread between leaves, stay below the accuracy. The measurement is
-/// repeated when the number of points has changed by a twentieth, and so often that it takes 3 % of the work; if
-/// it fails, or the number of points has changed by half, the shape is chosen anew. If no shape is accurate
-/// enough, or none is expected to be faster, the sum is direct, and the report says so.
+/// repeated when the number of points has changed by a twentieth, and so often that it takes 3 % of the work;
+/// if it fails, the opening is narrowed, or if that does not help the shape is chosen anew, as it is when the
+/// number of points has changed by half. If no shape is accurate enough, or none is expected to be faster,
+/// the sum is direct, and the report says so.
 ///
 /// All decisions follow from the points, the count of evaluations and counted work, never from a clock: the
 /// same calls give the same bits on any number of threads. With `rows` of one rank out of many, all ranks
@@ -35,13 +36,12 @@ enum class CoulombMethod { automatic, direct, tree };
 struct CoulombRequest {
   CoulombMethod method = CoulombMethod::automatic;
   double accuracy = 1e-5;
-  std::optional<int> order = {};       ///< 2 to 14
-  std::optional<double> opening = {};  ///< 0 to 0.9
-  std::optional<int> leaf = {};        ///< a multiple of 16
-  std::optional<bool> space = {};      ///< order in space, or that of the chain
-  bool local_expansions = true;        ///< false: Barnes-Hut, with the same search for opening and order
-  std::optional<int> measured_every =
-      {};  ///< evaluations between two measurements, instead of 3 % of the work
+  std::optional<int> order = {};           ///< 2 to 14
+  std::optional<double> opening = {};      ///< 0 to 0.9
+  std::optional<int> leaf = {};            ///< a multiple of 16
+  std::optional<bool> space = {};          ///< order in space, or that of the chain
+  bool local_expansions = true;            ///< false: Barnes-Hut, with the same search for opening and order
+  std::optional<int> measured_every = {};  ///< evaluations; without it, as takes 3 % of the work
 };
 
 /// The error of the field on sampled leaves, relative to the root mean square of the field over all points
