@@ -205,6 +205,16 @@ TEST_CASE("Small, empty and degenerate sets of charges have their right field") 
       CHECK(relative_l2_error(solve(solver, set), exact) <= accuracy);
     }
   }
+  SECTION("two jets a million of their lengths apart, one of them collinear") {
+    PointSet set = straight_line(1500);
+    const PointSet other = coil(1500, 20, 0.1);
+    for (std::size_t i = 0; i < 1500; ++i)
+      set.add({other.r[0][i] + 1e6, other.r[1][i] - 2e6, other.r[2][i]}, other.q[i]);
+    const FieldSet exact = direct_field(set);
+    CoulombSolver solver(tree_of_accuracy(1e-7));
+    CHECK(relative_l2_error(solve(solver, set), exact) <= 1e-7);
+    CHECK_FALSE(solver.report().direct);
+  }
   SECTION("a pair of points at one place is left out, and reported") {
     const PointSet clean = coil(2000, 10, 0.2);
     PointSet set = clean;
