@@ -109,7 +109,7 @@ std::vector<Case> cases() {
   auto fixed_tree = long_jet, two_rate_tree = long_jet;
   fixed_tree.insert(fixed_tree.end(), {"coulomb sorting space", "integrator 2", "timestep 5.d-8"});
   two_rate_tree.insert(two_rate_tree.end(), {"tolerance 1.d-3"});
-  return {output_often("pvp", 8e-3, {"collector distance 0.5"}),
+  return {output_often("pvp", 1e-3, {"points 120", "initial length 2.4", "collector distance 2.45"}),
           output_often("pvp", 2e-3, {near, "integrator dopri5", "multirate no"}),
           output_often("pvp", 2e-3, {near, "integrator verner6", "multirate no"}),
           output_often("pvp", 2e-3, {near, "integrator kencarp5", "elastic modulus 5.d7"}),
