@@ -5,7 +5,7 @@
 set -eu
 cd "$(dirname "$0")"
 
-for_building="g++ cmake ninja-build libeigen3-dev libfmt-dev libcli11-dev libopenmpi-dev openmpi-bin"
+for_building="g++ cmake ninja-build libeigen3-dev libfmt-dev libcli11-dev zlib1g-dev libopenmpi-dev openmpi-bin"
 for_pictures="python3-matplotlib"
 for_tests="catch2 libsundials-dev"
 

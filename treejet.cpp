@@ -8,6 +8,7 @@
 #include "core/command_line.hpp"
 #include "core/deck.hpp"
 #include "core/error.hpp"
+#include "core/resumption.hpp"
 #include "core/version.hpp"
 #include "forces/coulomb.hpp"
 #include "forces/coulomb_request.hpp"
@@ -56,24 +57,50 @@ void require_same(const Ranks& ranks, const Deck& deck) {
 }
 
 template <int D>
-void run(const Deck& deck, const Arguments& a, const Ranks& ranks) {
+int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* checkpoint) {
   require_same(ranks, deck);
   const Parameters& p = deck.parameters;
   const Threads each = threads(a, ranks);
+  const std::string directory = checkpoint ? a.resume : a.out;
+  const auto existing = checkpoint ? OutputFile::Existing::resume
+                        : a.force  ? OutputFile::Existing::replace
+                                   : OutputFile::Existing::keep;
+  // ranks meet signals at different steps and have clocks of their own: the first one's clock counts, and all
+  // follow the strongest wish
+  Interruption interruption(ranks.first() ? Interruption::Setting{p.checkpoint, a.walltime}
+                                          : Interruption::Setting{});
+  const auto wish = [&] { return Wish{ranks.greatest(static_cast<int>(interruption.wish()))}; };
   Scene<D> scene = compose<D>(p, each, ranks);
-  const auto existing = a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
-  Simulation<D> simulation(p, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
-                           {a.out, existing, a.quiet, !ranks.first()});
+  Simulation<D> simulation(
+      deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
+      {{directory, existing, a.quiet, !ranks.first()}, version_text(), wish});
   if (!a.quiet) {
     fmt::print("{}\n{}\n{}{}", version_text(), deck.name, notes(deck),
                composition(scene.composed, scene.left_out));
     fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p),
                workers_description(ranks, each));
   }
+  if (checkpoint) simulation.resume(*checkpoint);
   const auto started = std::chrono::steady_clock::now();
-  simulation.finish();
+  if (!simulation.finish()) {
+    if (ranks.first())
+      fmt::print(stderr, "treejet: stopped at t = {:.6g} s by {}; to go on: treejet run --resume {}\n",
+                 simulation.t(), interruption.reason(), directory);
+    return stopped_early;
+  }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!a.quiet) fmt::print("\n{}{}", simulation.summary(), times_description(ranks.times(), seconds));
+  return 0;
+}
+
+int resume(const Arguments& a, const Ranks& ranks) {
+  Resumption stopped = resumption(a.resume, version_text());
+  if (ranks.first())
+    for (const auto& w : stopped.warnings) fmt::print(stderr, "treejet: warning: {}\n", w);
+  if (!a.deck.empty()) expect_same(read_deck(a.deck, a.overrides), stopped.deck);
+  const bool straight = stopped.deck.parameters.system == 1;
+  return straight ? run<1>(stopped.deck, a, ranks, &stopped.checkpoint)
+                  : run<3>(stopped.deck, a, ranks, &stopped.checkpoint);
 }
 
 template <int D>
@@ -93,13 +120,11 @@ int main(const Arguments& a, const Ranks& ranks) {
         std::cout);
     return 0;
   }
+  if (!a.resume.empty()) return resume(a, ranks);
   const Deck deck = read_deck(a.deck, a.overrides);
   const bool straight = deck.parameters.system == 1;
-  if (a.command == "check") {
-    straight ? check<1>(deck) : check<3>(deck);
-  } else {
-    straight ? run<1>(deck, a, ranks) : run<3>(deck, a, ranks);
-  }
+  if (a.command == "run") return straight ? run<1>(deck, a, ranks, nullptr) : run<3>(deck, a, ranks, nullptr);
+  straight ? check<1>(deck) : check<3>(deck);
   return 0;
 }
 

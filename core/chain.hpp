@@ -50,38 +50,6 @@ void set_boundary(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, d
 /// Fills beads and elements first <= i < last.
 template <int D>
 void set_elements(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, double t, const Table<D>& y,
-                  std::pair<Eigen::Index, Eigen::Index> rows) {
-  const auto [first, last] = rows;
-  const Eigen::Index n = y.rows(), m = last - first;
-  chain.point.middleRows(first, m) = y.middleRows(first, m).template leftCols<D>();
-  chain.point_charge.segment(first, m) = jet.charge.segment(first, m);
-  chain.stress.segment(first, m) = y.col(stress_column<D>).segment(first, m);
-  chain.inverse_mass.segment(first, m) = jet.mass.segment(first, m).inverse();
-
-  // d = r_i - r_up and w = v_i - v_up; the youngest bead hangs on the nozzle, the others on the next row
-  auto d = chain.tangent.middleRows(first, m);
-  const Eigen::Index joined = last == n ? m - 1 : m;
-  d.topRows(joined) = y.middleRows(first, joined).template leftCols<D>() -
-                      y.middleRows(first + 1, joined).template leftCols<D>();
-  if (last == n) d.row(m - 1) = y.row(n - 1).template head<D>() - nozzle.position(t).transpose().array();
-
-  auto inverse = chain.inverse_length.segment(first, m);
-  auto rate = chain.strain_rate.segment(first, m);
-  if constexpr (D == 1) {
-    inverse = d.col(0).inverse();
-    d.setOnes();
-  } else {
-    inverse = d.square().rowwise().sum().rsqrt();
-    for (int k = 0; k < D; ++k) d.col(k) *= inverse;
-  }
-  rate.setZero();
-  const Vec<D> v_nozzle = nozzle.velocity(t);
-  for (int k = 0; k < D; ++k) {
-    const auto v = y.col(velocity_column<D> + k);
-    rate.head(joined) += (v.segment(first, joined) - v.segment(first + 1, joined)) * d.col(k).head(joined);
-    if (last == n) rate[m - 1] += (v[n - 1] - v_nozzle[k]) * d(m - 1, k);
-  }
-  rate *= inverse;
-}
+                  std::pair<Eigen::Index, Eigen::Index> rows);
 
 }  // namespace treejet

@@ -20,15 +20,37 @@ A deck is a text file of directives in CGS units, as JETSPIN's input.dat. Start 
 Any directive can be replaced for one run:
   treejet run input.dat --out r12 --set "external potential 40.03" --set "final time 0.1"
 
-Exit codes: 0 done, 2 deck or arguments, 3 numerical failure, 4 files.)";
+A run is stopped with a checkpoint by Ctrl-C, SIGTERM, SIGUSR1 or --walltime, and goes on to the same bytes:
+  treejet run --resume results
 
-void add_deck(CLI::App& command, Arguments& a) {
-  command.add_option("DECK", a.deck, "the deck, e.g. examples/pvp/input.dat")->required();
+Exit codes: 0 done, 2 deck or arguments, 3 numerical failure, 4 files, 75 stopped with a checkpoint.)";
+
+CLI::Option* add_deck(CLI::App& command, Arguments& a) {
+  auto* deck = command.add_option("DECK", a.deck, "the deck, e.g. examples/pvp/input.dat");
   command
       .add_option("--set", a.overrides,
                   "a directive with its value that replaces the deck's, e.g. "
                   "--set \"final time 0.1\"; may be repeated")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->needs(deck);
+  return deck;
+}
+
+/// Seconds, or hours, minutes and seconds as batch systems write them.
+std::optional<double> wall_seconds(const std::string& text) {
+  int hours = 0, minutes = 0, end = 0;
+  double seconds = 0;
+  const auto all = static_cast<int>(text.size());
+  constexpr const char* digits = "0123456789:.";
+  if (text.find_first_not_of(digits) != std::string::npos) return std::nullopt;
+  if (std::sscanf(text.c_str(), "%d:%2d:%lf%n", &hours, &minutes, &seconds, &end) < 3 || end != all) {
+    hours = minutes = 0;
+    if (std::sscanf(text.c_str(), "%lf%n", &seconds, &end) < 1 || end != all) return std::nullopt;
+  } else if (minutes >= 60 || !(seconds < 60)) {
+    return std::nullopt;
+  }
+  const double sum = 3600.0 * hours + 60 * minutes + seconds;
+  return sum > 0 ? std::optional(sum) : std::nullopt;
 }
 
 void add_threads(CLI::App& command, Arguments& a) {
@@ -89,14 +111,26 @@ std::optional<Arguments> command_line(int argc, char** argv, const std::string& 
   app.footer(lesson);
 
   auto& run = *app.add_subcommand("run", "Run a deck: statdat.dat, traj.xyz and a table on the terminal");
-  add_deck(run, a);
-  run.add_option("--out", a.out, "directory of the results, made if missing")->capture_default_str();
+  auto* deck = add_deck(run, a);
+  auto* out =
+      run.add_option("--out", a.out, "directory of the results, made if missing")->capture_default_str();
   add_threads(run, a);
   run.add_flag("--quiet", a.quiet, "no table, no progress, no summary");
-  run.add_flag("--force", a.force, "replace results that are there already");
+  auto* force = run.add_flag("--force", a.force, "replace results that are there already");
+  auto* resume =
+      run.add_option("--resume", a.resume, "continue the run stopped in this directory; its deck is known");
+  resume->excludes(out)->excludes(force);
+  run.callback([deck, resume] {
+    if (deck->empty() && resume->empty()) throw CLI::RequiredError("DECK");
+  });
+  run.add_option_function<std::string>(
+         "--walltime", [&a](const std::string& text) { a.walltime = wall_seconds(text); },
+         "stop with a checkpoint before this much time has passed: seconds or hh:mm:ss")
+      ->check(
+          [](const std::string& text) { return wall_seconds(text) ? "" : "expected seconds or hh:mm:ss"; });
 
   auto& check = *app.add_subcommand("check", "Read a deck and tell what it composes and leaves out, and why");
-  add_deck(check, a);
+  add_deck(check, a)->required();
   add_field(app, a);
   app.add_subcommand("template", "Print a commented deck with every directive");
   app.add_subcommand("reference", "Print the tables of directives and observables (Markdown)");

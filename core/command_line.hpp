@@ -16,6 +16,8 @@ struct Arguments {
   std::string out = ".";
   int threads = 0;  ///< 0: auto
   bool quiet = false, force = false;
+  std::string resume;              ///< directory of the run to continue; empty: a new run
+  std::optional<double> walltime;  ///< s
 
   std::string points, field_out;  ///< of the field command
   CoulombSetting coulomb{.coulomb = CoulombSum::automatic};

@@ -24,11 +24,16 @@ struct Word {
 
 // The first word of a value is the one it is printed with.
 constexpr Word<bool> yes_no[] = {{"yes", true}, {"no", false}};
-constexpr Word<Scheme> schemes[] = {
-    {"auto", Scheme::automatic}, {"euler", Scheme::euler},   {"heun", Scheme::heun},
-    {"rk4", Scheme::rk4},        {"dopri5", Scheme::dopri5}, {"verner6", Scheme::verner6},
-    {"kencarp5", Scheme::kencarp5},
-    {"1", Scheme::euler},        {"2", Scheme::heun},        {"3", Scheme::rk4}};
+constexpr Word<Scheme> schemes[] = {{"auto", Scheme::automatic},
+                                    {"euler", Scheme::euler},
+                                    {"heun", Scheme::heun},
+                                    {"rk4", Scheme::rk4},
+                                    {"dopri5", Scheme::dopri5},
+                                    {"verner6", Scheme::verner6},
+                                    {"kencarp5", Scheme::kencarp5},
+                                    {"1", Scheme::euler},
+                                    {"2", Scheme::heun},
+                                    {"3", Scheme::rk4}};
 constexpr Word<EventRule> event_rules[] = {{"located", EventRule::located}, {"step", EventRule::step}};
 constexpr Word<Multirate> multirates[] = {{"auto", Multirate::automatic}, {"no", Multirate::no}};
 constexpr Word<Units> unit_systems[] = {{"cgs", Units::cgs}, {"real", Units::real}};
@@ -226,6 +231,16 @@ std::string argument(const Directive& d) {
 
 std::string value_text(const Directive& d, const Parameters& parameters) {
   return on_member(d, parameters, [](const auto& member) { return text(member); });
+}
+
+std::vector<std::string> differences(const Parameters& here, const Parameters& there) {
+  const auto said = [](const std::string& value) { return value.empty() ? "nothing" : value; };
+  std::vector<std::string> lines;
+  for (const Directive& d : directives()) {
+    const std::string a = value_text(d, here), b = value_text(d, there);
+    if (a != b) lines.push_back(fmt::format("{}: {} here, {} there", d.words, said(a), said(b)));
+  }
+  return lines;
 }
 
 }  // namespace treejet

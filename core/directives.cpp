@@ -126,6 +126,9 @@ const Directive table[] = {
      .meaning = "beads in a frame, from the collector on", .synonyms = "print xyz maxnumber"},
     {.words = "print xyz rescale", .member = &P::xyz_rescale, .check = positive,
      .meaning = "factor on the coordinates, which are in cm"},
+    {.words = "checkpoint", .member = &P::checkpoint, .unit = "s", .check = positive,
+     .meaning = "wall-clock time between checkpoints, from which `treejet run --resume` continues",
+     .absent = "one when a signal or --walltime stops the run"},
 };
 
 const Foreign foreign_table[] = {

@@ -66,6 +66,9 @@ std::string assign(const Directive& directive, std::span<const std::string> argu
 /// What the directive takes: "real", "integer", "yes|no", ...
 std::string argument(const Directive& directive);
 
+/// One line for each directive with different values: "final time: 0.1 here, 0.2 there".
+std::vector<std::string> differences(const Parameters& here, const Parameters& there);
+
 /// The member's value as a deck spells it, empty if it has none.
 std::string value_text(const Directive& directive, const Parameters& parameters);
 

@@ -28,4 +28,7 @@ struct FileError : Error {
   explicit FileError(const std::string& what) : Error(4, what) {}
 };
 
+/// Not a failure: the exit code of a run that was stopped and can be resumed (EX_TEMPFAIL of sysexits.h).
+constexpr int stopped_early = 75;
+
 }  // namespace treejet

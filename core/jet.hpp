@@ -14,6 +14,7 @@
 
 #include <cstdint>
 
+#include "core/archive.hpp"
 #include "core/vec.hpp"
 
 namespace treejet {
@@ -28,6 +29,8 @@ struct Jet {
       0;  ///< beads that have left at the collector: bead i was the (removed + i)-th inserted
 
   Eigen::Index size() const { return y.rows(); }
+
+  void visit(Archive& state) { state(t, y, mass, charge, held, removed); }
 };
 
 /// Appends a bead above the youngest one.
@@ -46,10 +49,9 @@ void append(Jet<D>& jet, const Vec<D>& position, const Vec<D>& velocity, double 
 /// Drops the oldest bead.
 template <int D>
 void drop_first(Jet<D>& jet) {
-  const Eigen::Index left = jet.size() - 1;
-  jet.y = jet.y.bottomRows(left).eval();
-  jet.mass = jet.mass.tail(left).eval();
-  jet.charge = jet.charge.tail(left).eval();
+  drop_first_row(jet.y);
+  drop_first_row(jet.mass);
+  drop_first_row(jet.charge);
   ++jet.removed;
 }
 

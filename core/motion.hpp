@@ -32,6 +32,9 @@ class Motion {
   /// The oldest bead of `jet` is about to be removed; the youngest one has just been released.
   virtual void before_removal(const Jet<D>&) {}
   virtual void after_release(const Jet<D>&) {}
+
+  /// What a motion remembers from one evaluation to the next.
+  virtual void visit(Archive&) {}
 };
 
 }  // namespace treejet

@@ -1,25 +1,46 @@
 #pragma once
-/// A text file of results: created once, never over an existing one unless told to, flushed after every
-/// record, and every failed write is a FileError that names the file.
+/// A file of results: created once, never over an existing one unless told to, locked against a second run.
+///
+/// A record is in the file as a whole or not at all, unless the program is killed while it is written: every
+/// record is handed to the operating system at once, and what a failed write left of it is cut off again. A
+/// checkpoint forces the file to disk and notes its length; a run that is resumed cuts it there and goes on.
+/// FileError, with the file's name: failed calls, a file removed or changed under us, one used by another
+/// run.
 
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 
 namespace treejet {
 
+class Archive;
+
 class OutputFile {
  public:
-  enum class Existing { keep, replace };
+  enum class Existing { keep, replace, resume };
 
   OutputFile(std::filesystem::path path, Existing existing);
+  OutputFile(OutputFile&& other) noexcept;
+  ~OutputFile();
+
   void write(std::string_view record);
+  /// On to the disk with all records.
+  void sync();
+  void visit(Archive& state);
+
   const std::filesystem::path& path() const { return path_; }
+  bool is_new() const { return is_new_; }
 
  private:
+  void check_undisturbed() const;
+  void cut(std::uint64_t length);
+  [[noreturn]] void fail(std::string_view what) const;
+
   std::filesystem::path path_;
-  std::ofstream stream_;
+  int descriptor_;
+  bool is_new_;
+  std::uint64_t length_ = 0;
 };
 
 }  // namespace treejet

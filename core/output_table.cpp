@@ -19,6 +19,7 @@ std::string label(const std::string& key) {
 }  // namespace
 
 StatFile::StatFile(OutputFile file, const std::vector<std::string>& keys) : file_(std::move(file)) {
+  if (!file_.is_new()) return;
   std::string header = "#";
   for (const auto& key : keys) header += fmt::format(" {}", label(key));
   file_.write(header + "\n");

@@ -17,6 +17,8 @@ class StatFile final : public RowSink {
  public:
   StatFile(OutputFile file, const std::vector<std::string>& keys);
   void row(const std::vector<double>& values) override;
+  void finish() override { file_.sync(); }
+  void visit(Archive& state) override { file_.visit(state); }
 
  private:
   OutputFile file_;

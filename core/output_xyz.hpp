@@ -31,6 +31,16 @@ class Trajectory final : public Sampling<D> {
   /// The most beads (nozzle counted) a frame had to hold.
   Eigen::Index most_beads() const { return most_; }
 
+  void finish(const Jet<D>& jet) override {
+    Sampling<D>::finish(jet);
+    file_.sync();
+  }
+
+  void visit(Archive& state) override {
+    Sampling<D>::visit(state);
+    state(file_, most_);
+  }
+
  protected:
   void sample(const Jet<D>& jet) override;
 

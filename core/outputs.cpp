@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/checkpoint.hpp"
 #include "core/output_table.hpp"
 #include "core/output_xyz.hpp"
 #include "core/progress.hpp"
@@ -28,29 +29,29 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
     : maxnum_(p.xyz_maxnum) {
   if (setting.elsewhere) return;
   const Scales s = scales(p);
-  const bool table = !p.print_list.empty() && !setting.quiet;
   const auto file = [&](const char* name) {
     files_.push_back(setting.directory / name);
     return OutputFile(files_.back(), setting.existing);
   };
-  if (table || !p.printstat_list.empty()) {
+  if (!p.print_list.empty() || !p.printstat_list.empty()) {
     auto rows = recorder<D>(p, nozzle, collector);
-    if (table) rows->add(p.print_list, std::make_unique<TerminalTable>(p.print_list));
+    // quiet or not, the windows are the same: a run may be resumed either way
+    rows->add(p.print_list, setting.quiet ? nullptr : std::make_unique<TerminalTable>(p.print_list));
     if (!p.printstat_list.empty()) {
       rows->add(p.printstat_list, std::make_unique<StatFile>(file("statdat.dat"), p.printstat_list));
     }
-    watchers_.push_back(std::move(rows));
+    watchers_.push_back({"rows", std::move(rows)});
   }
   if (p.print_xyz) {
     auto trajectory = std::make_unique<Trajectory<D>>(
         typename Trajectory<D>::Setting{nozzle, s, *p.print_xyz / s.time, p.xyz_maxnum, p.xyz_rescale},
         file("traj.xyz"));
     trajectory_ = trajectory.get();
-    watchers_.push_back(std::move(trajectory));
+    watchers_.push_back({"traj.xyz", std::move(trajectory)});
   }
   if (!setting.quiet) {
     watchers_.push_back(
-        std::make_unique<Progress<D>>(p.final_time / s.time, s.time, stderr_is_interactive()));
+        {"progress", std::make_unique<Progress<D>>(p.final_time / s.time, s.time, stderr_is_interactive())});
   }
 }
 
@@ -60,7 +61,7 @@ Outputs<D>::~Outputs() = default;
 template <int D>
 std::vector<Watcher<D>*> Outputs<D>::watchers() const {
   std::vector<Watcher<D>*> all;
-  for (auto& w : watchers_) all.push_back(w.get());
+  for (auto& w : watchers_) all.push_back(w.watcher.get());
   return all;
 }
 
@@ -77,6 +78,11 @@ std::vector<std::string> Outputs<D>::summary() const {
                     trajectory_->most_beads(), maxnum_));
   }
   return lines;
+}
+
+template <int D>
+void Outputs<D>::visit(State& state) {
+  for (auto& w : watchers_) state.part(w.name, *w.watcher);
 }
 
 template class Outputs<1>;

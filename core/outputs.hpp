@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/output_file.hpp"
@@ -17,6 +18,7 @@ class Nozzle;
 class Collector;
 template <int D>
 class Trajectory;
+class State;
 
 struct OutputSetting {
   std::filesystem::path directory;
@@ -37,8 +39,15 @@ class Outputs {
   /// One line a file, for the closing summary.
   std::vector<std::string> summary() const;
 
+  void visit(State& state);
+
  private:
-  std::vector<std::unique_ptr<Watcher<D>>> watchers_;
+  struct Named {
+    std::string name;  ///< of the part of a checkpoint that tells its state
+    std::unique_ptr<Watcher<D>> watcher;
+  };
+
+  std::vector<Named> watchers_;
   std::vector<std::filesystem::path> files_;
   const Trajectory<D>* trajectory_ = nullptr;
   int maxnum_;

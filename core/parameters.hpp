@@ -71,6 +71,8 @@ struct Parameters : CoulombSetting {
   std::optional<double> print_xyz;  ///< s
   int xyz_maxnum = 100;
   double xyz_rescale = 1;
+
+  std::optional<double> checkpoint;  ///< s of wall-clock time
 };
 
 /// The interval of the tables in s; without print time JETSPIN's 1000 steps, or a hundredth of the run.

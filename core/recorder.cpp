@@ -31,6 +31,25 @@ void Recorder<D>::segment(const Jet<D>& jet, const Segment<D>& segment) {
 }
 
 template <int D>
+void Recorder<D>::finish(const Jet<D>& jet) {
+  Sampling<D>::finish(jet);
+  for (auto& list : lists_)
+    if (list.sink) list.sink->finish();
+}
+
+template <int D>
+void Recorder<D>::visit(Archive& state) {
+  const auto now = Clock::now();
+  auto elapsed = now - started_, in_window = now - last_row_;
+  Sampling<D>::visit(state);
+  state(statistics_, fed_, landed_, elapsed, in_window);
+  started_ = now - elapsed;
+  last_row_ = now - in_window;
+  for (auto& list : lists_)
+    if (list.sink) list.sink->visit(state);
+}
+
+template <int D>
 Timing Recorder<D>::timing(double t) const {
   const auto now = Clock::now();
   const double interval = std::chrono::duration<double>(now - last_row_).count();
@@ -52,6 +71,7 @@ void Recorder<D>::sample(const Jet<D>& jet) {
                      timing(jet.t)};
   std::vector<double> values;
   for (auto& list : lists_) {
+    if (!list.sink) continue;
     values.clear();
     for (const auto& o : list.observables) values.push_back(o(view));
     list.sink->row(values);

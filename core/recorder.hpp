@@ -16,6 +16,8 @@ class RowSink {
  public:
   virtual ~RowSink() = default;
   virtual void row(const std::vector<double>& values) = 0;
+  virtual void finish() {}
+  virtual void visit(Archive&) {}
 };
 
 template <int D>
@@ -31,12 +33,14 @@ class Recorder final : public Sampling<D> {
 
   explicit Recorder(const Setting& setting);
 
-  /// Sends the keys' values to the sink at every row.
+  /// Sends the keys' values to the sink at every row. Without a sink the keys are only followed.
   void add(const std::vector<std::string>& keys, std::unique_ptr<RowSink> sink);
 
   void start(const Jet<D>& jet) override;
   void segment(const Jet<D>& jet, const Segment<D>& segment) override;
   void event(EventKind kind, const Jet<D>& jet) override { statistics_.event(kind, jet); }
+  void finish(const Jet<D>& jet) override;
+  void visit(Archive& state) override;
 
  protected:
   void sample(const Jet<D>& jet) override;

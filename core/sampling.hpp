@@ -30,6 +30,8 @@ class Sampling : public Watcher<D> {
     if (next() <= jet.t + slack()) take(jet, jet.t, jet.y);
   }
 
+  void visit(Archive& state) override { state(count_); }
+
  protected:
   /// The jet at an asked time, jet.t, with the state there.
   virtual void sample(const Jet<D>& jet) = 0;

@@ -8,6 +8,7 @@
 /// t <= until. Source: Hermite interpolation; e.g. Hairer, Norsett, Wanner, "Solving ODEs I", II.6.
 
 #include "core/jet.hpp"
+#include "core/weighted_sum.hpp"
 
 namespace treejet {
 
@@ -16,6 +17,8 @@ template <int D>
 struct Node {
   double t = 0;
   Table<D> y, slope;
+
+  void visit(Archive& state) { state(t, y, slope); }
 };
 
 template <int D>
@@ -35,26 +38,36 @@ class Segment {
   /// Beads first, first + 1, ... of the state at t, as many as `y` has rows.
   void at(double t, Eigen::Index first, Table<D>& y) const {
     const double h = end_.t - begin_.t, s = (t - begin_.t) / h, s2 = s * s, s3 = s2 * s;
-    const Eigen::Index n = y.rows();
-    const auto x0 = begin_.y.middleRows(first, n).template leftCols<D>();
-    const auto x1 = end_.y.middleRows(first, n).template leftCols<D>();
-    const auto v0 = begin_.y.middleRows(first, n).template middleCols<D>(D);
-    const auto v1 = end_.y.middleRows(first, n).template middleCols<D>(D);
-    const auto a0 = begin_.slope.middleRows(first, n).template middleCols<D>(D);
-    const auto a1 = end_.slope.middleRows(first, n).template middleCols<D>(D);
-    y.template leftCols<D>() = x0 + s3 * (10 - 15 * s + 6 * s2) * (x1 - x0) +
-                               h * (s - s3 * (6 - 8 * s + 3 * s2)) * v0 - h * s3 * (4 - 7 * s + 3 * s2) * v1 +
-                               h * h / 2 * (s2 - s3 * (3 - 3 * s + s2)) * a0 +
-                               h * h / 2 * s3 * (1 - 2 * s + s2) * a1;
-    y.template middleCols<D>(D) =
-        30 * s2 * (1 - 2 * s + s2) / h * (x1 - x0) + (1 - s2 * (18 - 32 * s + 15 * s2)) * v0 -
-        s2 * (12 - 28 * s + 15 * s2) * v1 + h * (s - s2 * (4.5 - 6 * s + 2.5 * s2)) * a0 +
-        h * s2 * (1.5 - 4 * s + 2.5 * s2) * a1;
+    // of position and velocity at the beginning and at the end, and of the accelerations
+    const double x = s3 * (10 - 15 * s + 6 * s2), v = 30 * s2 * (1 - 2 * s + s2) / h;
+    const std::array<double, 6> of_position = {1 - x,
+                                               x,
+                                               h * (s - s3 * (6 - 8 * s + 3 * s2)),
+                                               -h * s3 * (4 - 7 * s + 3 * s2),
+                                               h * h / 2 * (s2 - s3 * (3 - 3 * s + s2)),
+                                               h * h / 2 * s3 * (1 - 2 * s + s2)};
+    const std::array<double, 6> of_velocity = {-v,
+                                               v,
+                                               1 - s2 * (18 - 32 * s + 15 * s2),
+                                               -s2 * (12 - 28 * s + 15 * s2),
+                                               h * (s - s2 * (4.5 - 6 * s + 2.5 * s2)),
+                                               h * s2 * (1.5 - 4 * s + 2.5 * s2)};
+    for (int k = 0; k < D; ++k) {
+      const auto from = [&](const Table<D>& table, int column) { return table.col(column).data() + first; };
+      const std::array<const double*, 6> ends = {from(begin_.y, k),
+                                                 from(end_.y, k),
+                                                 from(begin_.y, velocity_column<D> + k),
+                                                 from(end_.y, velocity_column<D> + k),
+                                                 from(begin_.slope, velocity_column<D> + k),
+                                                 from(end_.slope, velocity_column<D> + k)};
+      weighted_sum(nullptr, of_position, ends, y.rows(), y.col(k).data());
+      weighted_sum(nullptr, of_velocity, ends, y.rows(), y.col(velocity_column<D> + k).data());
+    }
     constexpr int sigma = stress_column<D>;
-    y.col(sigma) = (1 - s2 * (3 - 2 * s)) * begin_.y.col(sigma).segment(first, n) +
-                   s2 * (3 - 2 * s) * end_.y.col(sigma).segment(first, n) +
-                   h * s * (1 - 2 * s + s2) * begin_.slope.col(sigma).segment(first, n) -
-                   h * s2 * (1 - s) * end_.slope.col(sigma).segment(first, n);
+    const double c = s2 * (3 - 2 * s);
+    const auto stress = [&](const Table<D>& table) { return table.col(sigma).segment(first, y.rows()); };
+    y.col(sigma) = (1 - c) * stress(begin_.y) + c * stress(end_.y) +
+                   h * s * (1 - 2 * s + s2) * stress(begin_.slope) - h * s2 * (1 - s) * stress(end_.slope);
   }
 
   /// Third derivative of the position of bead i at the end: what the next step may expect of its

@@ -83,6 +83,10 @@ class Statistics {
     return charge_landed_ + way * jet.charge[0];
   }
 
+  void visit(Archive& state) {
+    state(window_, integrated_to_, last_release_speed_, released_, charge_landed_, next_arrival_from_);
+  }
+
  private:
   double path_at(const Segment<D>& segment, double t) const {
     return path_length<D>(t == segment.begin() ? segment.first() : segment.at(t), nozzle_.position(t));

@@ -2,6 +2,7 @@
 /// Vectors of the D-dimensional space a jet lives in (D = 1 or 3), and the column layout of its tables.
 
 #include <Eigen/Core>
+#include <array>
 
 namespace treejet {
 
@@ -12,6 +13,20 @@ using Vec = Eigen::Matrix<double, D, 1>;
 /// Column-major, so each quantity is one contiguous array over the beads.
 template <int D>
 using Table = Eigen::Array<double, Eigen::Dynamic, 2 * D + 1>;
+
+/// `count` columns of a table or of points from column `first` on, for loops over beads.
+template <int count, class Array>
+std::array<const double*, count> columns(const Array& table, Eigen::Index first = 0) {
+  std::array<const double*, count> c;
+  for (int k = 0; k < count; ++k) c[k] = table.col(first + k).data();
+  return c;
+}
+template <int count, class Array>
+std::array<double*, count> columns(Array& table, Eigen::Index first = 0) {
+  std::array<double*, count> c;
+  for (int k = 0; k < count; ++k) c[k] = table.col(first + k).data();
+  return c;
+}
 
 template <int D>
 constexpr int velocity_column = D;
@@ -25,6 +40,12 @@ Vec<D> position(const Table<D>& y, Eigen::Index i) {
 template <int D>
 Vec<D> velocity(const Table<D>& y, Eigen::Index i) {
   return y.row(i).template segment<D>(D).matrix().transpose();
+}
+
+/// A table or array without its first row.
+template <class Array>
+void drop_first_row(Array& a) {
+  a = a.bottomRows(a.rows() - 1).eval();
 }
 
 }  // namespace treejet

@@ -1,5 +1,6 @@
 #pragma once
 /// Whoever looks at a run while it goes on: outputs, statistics, progress. A watcher changes nothing.
+/// In a run that is resumed `visit` takes the place of `start`.
 
 #include "core/segment.hpp"
 
@@ -26,6 +27,9 @@ class Watcher {
 
   /// The jet after the last step.
   virtual void finish(const Jet<D>&) {}
+
+  /// What a watcher remembers from one segment to the next.
+  virtual void visit(Archive&) {}
 };
 
 }  // namespace treejet

@@ -3,6 +3,10 @@
 
 namespace treejet {
 
+namespace {
+constexpr int very_few = 6;  // points that do not repay filling wide registers
+}
+
 template <int D>
 void coulomb_direct(const PointCharges<D>& points, Rows rows, const FieldArrays<D>& field, VectorPath path) {
   const WideKernels& kernels = wide_kernels(path);
@@ -12,11 +16,26 @@ void coulomb_direct(const PointCharges<D>& points, Rows rows, const FieldArrays<
 
 template <int D>
 void coulomb_direct(const PointCharges<D>& points, Rows rows, const FieldArrays<D>& field) {
-  constexpr int few = 6;  // points that do not repay filling wide registers
-  if (points.n <= few) return coulomb_plain<D>(points, rows, field, points.n);
+  if (points.n <= very_few) return coulomb_plain<D>(points, rows, field, points.n);
   coulomb_direct<D>(points, rows, field, default_path());
 }
 
+template <int D>
+void coulomb_mutual(const PointCharges<D>& points, const FieldArrays<D>& field, VectorPath path) {
+  const WideKernels& kernels = wide_kernels(path);
+  (D == 1 ? kernels.mutual_1d : kernels.mutual_3d)(points.r.data(), points.q, points.n, field.data());
+}
+
+template <int D>
+void coulomb_mutual(const PointCharges<D>& points, const FieldArrays<D>& field) {
+  if (points.n <= very_few) return coulomb_plain<D>(points, {0, points.n}, field, points.n);
+  coulomb_mutual<D>(points, field, default_path());
+}
+
+template void coulomb_mutual<1>(const PointCharges<1>&, const FieldArrays<1>&);
+template void coulomb_mutual<3>(const PointCharges<3>&, const FieldArrays<3>&);
+template void coulomb_mutual<1>(const PointCharges<1>&, const FieldArrays<1>&, VectorPath);
+template void coulomb_mutual<3>(const PointCharges<3>&, const FieldArrays<3>&, VectorPath);
 template void coulomb_direct<1>(const PointCharges<1>&, Rows, const FieldArrays<1>&, VectorPath);
 template void coulomb_direct<3>(const PointCharges<3>&, Rows, const FieldArrays<3>&, VectorPath);
 template void coulomb_direct<1>(const PointCharges<1>&, Rows, const FieldArrays<1>&);

@@ -32,7 +32,7 @@ class CoulombForce final : public ForceTerm<D> {
   }
 
   void prepare(const Chain<D>& c, Threads threads) override {
-    field_.resize(c.beads, Eigen::NoChange);
+    field_.resize(c.points(), Eigen::NoChange);
     const Rows beads = {0, c.beads};
     const FieldArrays<D> field = field_arrays();
     if constexpr (D == 3) {
@@ -42,6 +42,7 @@ class CoulombForce final : public ForceTerm<D> {
         return;
       }
     }
+    if (reach_ >= c.points() - 1 && c.points() <= few_points) return coulomb_mutual<D>(charges(c), field);
     share_rows(ranks_, threads, beads, direct_block, field, [&](Rows rows) { sum_directly(c, rows, field); });
   }
 
@@ -53,9 +54,13 @@ class CoulombForce final : public ForceTerm<D> {
     }
   }
 
+  void visit(Archive& state) {
+    if (solver_) state(*solver_);
+  }
+
   double Q() const { return Q_; }
 
-  /// E at the beads, as `prepare` last computed it.
+  /// E at the beads (its first rows), as `prepare` last computed it.
   const typename Chain<D>::Points& field() const { return field_; }
 
   /// The sum to a stated error, null if it is direct.

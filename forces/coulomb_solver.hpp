@@ -50,6 +50,10 @@ struct CoulombReport {
   int choices = 0;            ///< of a shape, so far
   int coincident = 0;         ///< points of the last evaluation that share their place with another
   Interactions interactions;  ///< of the last evaluation
+
+  void visit(Archive& state) {
+    state(direct, reason, shape, expected_error, measurements, choices, coincident, interactions);
+  }
 };
 
 class CoulombSolver {
@@ -62,6 +66,9 @@ class CoulombSolver {
   void field(const PointCharges<3>& points, Rows rows, const FieldArrays<3>& field, Threads threads);
 
   const CoulombReport& report() const { return report_; }
+
+  /// What the next decisions are made from.
+  void visit(Archive& state) { state(tree_, report_, chosen_for_, since_check_, since_sort_); }
 
  private:
   void decide(const PointCharges<3>& points, Threads threads);

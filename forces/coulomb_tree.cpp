@@ -43,6 +43,12 @@ void CoulombTree::arrange(const PointCharges<3>& points, const TreeShape& shape,
   expand(shape.order, threads);
 }
 
+void CoulombTree::visit(Archive& state) {
+  int points = cells_.points(), leaf = cells_.leaf();
+  state(points, leaf, shape_, order_);
+  if (state.reading() && points > 0) cells_ = Cells(points, leaf);
+}
+
 void CoulombTree::reshape(int order, double opening, Threads threads) {
   shape_.opening = opening;
   if (order != shape_.order) expand(order, threads);

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "core/archive.hpp"
 #include "forces/cells.hpp"
 #include "forces/coulomb.hpp"
 #include "forces/wide_kernels.hpp"
@@ -65,6 +66,9 @@ class CoulombTree {
   Interactions count() const;
 
   const TreeShape& shape() const { return shape_; }
+
+  /// What `keep_order` keeps.
+  void visit(Archive& state);
 
  private:
   int source(int k) const { return order_.empty() ? k : order_[static_cast<std::size_t>(k)]; }

@@ -33,6 +33,26 @@ struct DirectBlock {
       }
   }
 
+  /// Adds the field of the source j, not one of the targets, and to `back` what the targets, with charges
+  /// `own`, do to it (Newton's third law): lane by lane, D registers.
+  void add_mutual(const T* const* source, T q, int j, const Pack (&own)[groups], Pack* const back) {
+    Pack reaction[D]{};
+#pragma GCC unroll 8
+    for (int g = 0; g < groups; ++g) {
+      Pack d[D], d2{};
+      for (int k = 0; k < D; ++k) {
+        d[k] = r[k][g] - source[k][j];
+        d2 += d[k] * d[k];
+      }
+      const Pack w = Isa::over_cube(1, d2), by_source = q * w, by_target = own[g] * w;
+      for (int k = 0; k < D; ++k) {
+        e[k][g] += by_source * d[k];
+        reaction[k] += by_target * d[k];
+      }
+    }
+    for (int k = 0; k < D; ++k) back[k] -= reaction[k];
+  }
+
   void store(T* const* field, int first, Rows rows) const {
     for (int k = 0; k < D; ++k)
       for (int g = 0; g < groups; ++g) {
@@ -77,6 +97,39 @@ void direct(const double* const* r, const double* q, int n, Rows rows, double* c
     block.add_range(r, q, {0, n}, {first, n < first + Block::size ? n : first + Block::size});
     block.store(field, first, rows);
   }
+}
+
+constexpr int most_mutual = 512;  // points: the partial sums of more leave the second-level cache
+
+/// The whole field of few points, each pair worked out once. Rows of the result are not independent of each
+/// other, so this is one worker's job.
+template <class Isa, int D>
+void direct_mutual(const double* const* r, const double* q, int n, double* const* field) {
+  using Block = DirectBlock<Isa, D>;
+  using Pack = typename Block::Pack;
+  constexpr int lanes = Block::lanes;
+  Pack back[most_mutual + lanes][D];  // what earlier blocks do to a point, lane by lane
+  for (int j = 0; j < n + lanes; ++j)
+    for (int k = 0; k < D; ++k) back[j][k] = Pack{};
+
+  for (int first = 0; first < n; first += Block::size) {
+    const Rows own = {first, n < first + Block::size ? n : first + Block::size};
+    Block block(r, first, n);
+    block.add_range(r, q, own, own);
+    Pack charge[Block::groups];
+    for (int g = 0; g < Block::groups; ++g)
+      charge[g] = load_first<double, lanes>(q + first + g * lanes, n - first - g * lanes);
+    for (int j = own.last; j < n; ++j) block.add_mutual(r, q[j], j, charge, back[j]);
+    block.store(field, first, own);
+  }
+  for (int first = 0; first < n; first += lanes)
+    for (int k = 0; k < D; ++k) {
+      Pack row[lanes], sum = load_first<double, lanes>(field[k] + first, n - first);
+      for (int l = 0; l < lanes; ++l) row[l] = back[first + l][k];
+      Isa::transpose(row);
+      for (int l = 0; l < lanes; ++l) sum += row[l];
+      store_lanes<double, lanes>(field[k] + first, sum, 0, n - first);
+    }
 }
 
 /// The near field of the points of a cell: sources are the points of `count` ranges, in their order.

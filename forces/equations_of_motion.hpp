@@ -29,6 +29,10 @@ class EquationsOfMotion final : public Motion<D> {
 
   void differentiate(const Jet<D>& jet, double t, const Table<D>& y, LocalJacobian<D>& J) override;
 
+  void visit(Archive& state) override {
+    if (coulomb_) state(*coulomb_);
+  }
+
   /// Everything but the Coulomb force, which couples all beads, for the slopes of `rows`.
   void set_local(const Chain<D>& chain, const Table<D>& y, Rows rows, Table<D>& slope) const;
 

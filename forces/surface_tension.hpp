@@ -8,37 +8,31 @@
 /// youngest one, although l_i reaches to the nozzle (JETSPIN's rule, kept). Source: paper, Sec. "Equations of
 /// motion".
 
+#include <array>
+
 #include "forces/term.hpp"
 
 namespace treejet {
 
 /// Curvature times the unit vector to the centre of the circle through a bead and its neighbours at u and s
-/// from it.
+/// from it, given U = u / u^2 and S = s / s^2.
 ///
-/// Inversion maps that circle on the line through U = u / u^2 and S = s / s^2, whose point nearest to the
-/// origin, f, is the image of the far end of the diameter: f = 2 R c / (2 R)^2, hence k c = 2 f. No test for
-/// straightness and no small divisor: for collinear beads the line passes through the origin and f = 0 to
-/// round-off.
-inline Vec<3> curvature(const Vec<3>& u, const Vec<3>& s) {
-  const Vec<3> U = u / u.squaredNorm(), along = s / s.squaredNorm() - U;
-  return 2 * (U - along * (U.dot(along) / along.squaredNorm()));
+/// Inversion maps that circle on the line through U and S, whose point nearest to the origin, f, is the image
+/// of the far end of the diameter: f = 2 R c / (2 R)^2, hence k c = 2 f. No test for straightness and no
+/// small divisor: for collinear beads the line passes through the origin and f = 0 to round-off.
+using Triple = std::array<double, 3>;
+inline Triple curvature(const Triple& U, const Triple& S) {
+  const Triple along = {S[0] - U[0], S[1] - U[1], S[2] - U[2]};
+  const double foot = (U[0] * along[0] + U[1] * along[1] + U[2] * along[2]) /
+                      (along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
+  return {2 * (U[0] - along[0] * foot), 2 * (U[1] - along[1] * foot), 2 * (U[2] - along[2] * foot)};
 }
 
 class SurfaceTension final : public ForceTerm<3> {
  public:
   SurfaceTension(double L_step, double A) : coefficient_(L_step * A / 4) {}
   std::string_view name() const override { return "surface tension"; }
-
-  void add(const Chain<3>& c, Rows rows, Acceleration<3>& a) const override {
-    for (int i = rows.first == 0 ? 1 : rows.first; i < rows.last; ++i) {
-      const Vec<3> r = c.point.row(i).transpose();
-      const Vec<3> down = c.point.row(i - 1).transpose().matrix() - r;
-      const Vec<3> up = c.point.row(i + 1).transpose().matrix() - r;
-      const double radii = std::sqrt(c.inverse_length[i]) + std::sqrt(c.inverse_length[i - 1]);
-      const Vec<3> k = coefficient_ * radii * radii * c.inverse_mass[i] * curvature(down, up);
-      a.row(i) += k.transpose().array();
-    }
-  }
+  void add(const Chain<3>& c, Rows rows, Acceleration<3>& a) const override;
 
  private:
   double coefficient_;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error_norm.hpp"
+#include "core/wide_loops.hpp"
 
 namespace treejet {
 
@@ -36,13 +37,31 @@ void set_near_field(const typename Chain<D>::Points& point, const Eigen::ArrayXd
   coulomb_direct<D>(points, {end.fast.first - end.window.first, end.fast.last - end.window.first}, out);
 }
 
-/// Field of a charge at p, at the first n of some points.
+/// Adds to e the field of a charge at p, at the first n of the points r.
+template <int D>
+TREEJET_WIDE_LOOPS void add_field_of(double charge, const Vec<D>& p, std::array<const double*, D> r,
+                                     Eigen::Index n, std::array<double*, D> e) {
+  std::array<double, D> source;
+  for (int k = 0; k < D; ++k) source[k] = p[k];
+#pragma GCC ivdep
+  for (Eigen::Index i = 0; i < n; ++i) {
+    std::array<double, D> d;
+    double d2 = 0;
+    for (int k = 0; k < D; ++k) {
+      d[k] = r[k][i] - source[k];
+      d2 += d[k] * d[k];
+    }
+    const double w = charge / (d2 * std::sqrt(d2));
+    for (int k = 0; k < D; ++k) e[k][i] += w * d[k];
+  }
+}
+
 template <int D>
 typename Chain<D>::Points field_of(double charge, const Vec<D>& p, const typename Chain<D>::Points& point,
                                    Eigen::Index n) {
-  typename Chain<D>::Points d = point.topRows(n).rowwise() - p.transpose().array();
-  const Eigen::ArrayXd w = charge * d.square().rowwise().sum().rsqrt().cube();
-  return d.colwise() * w;
+  typename Chain<D>::Points e = Chain<D>::Points::Zero(n, D);
+  add_field_of<D>(charge, p, columns<D>(point), n, columns<D>(e));
+  return e;
 }
 
 /// Adds the field e of some charge at the first beads to what is remembered.
@@ -59,11 +78,6 @@ void insert_row(Array& a, Eigen::Index at) {
   const Eigen::Index n = a.rows();
   a.conservativeResize(n + 1, Eigen::NoChange);
   a.bottomRows(n - at) = a.middleRows(at, n - at).eval();
-}
-
-template <class Array>
-void drop_first_row(Array& a) {
-  a = a.bottomRows(a.rows() - 1).eval();
 }
 
 }  // namespace
@@ -104,8 +118,9 @@ template <int D>
 Moment<D> TwoRateMotion<D>::moment(const Jet<D>& jet, double t, const Table<D>& slope) const {
   const Chain<D>& c = full_.chain();
   const Eigen::Index n = slope.rows(), nozzle = c.points() - 1;
-  Moment<D> now{t,  c.point.topRows(n + 1),           c.point_charge.head(n + 1), full_.coulomb()->field(),
-                {}, slope.template rightCols<D + 1>()};
+  Moment<D> now{
+      t,  c.point.topRows(n + 1),           c.point_charge.head(n + 1), full_.coulomb()->field().topRows(n),
+      {}, slope.template rightCols<D + 1>()};
   if (jet.held) {
     const Vec<D> held = c.point.row(n).matrix().transpose();
     add_field<D>(now, field_of<D>(-c.point_charge[n], held, c.point, n), jet, full_.coulomb()->Q());
@@ -117,58 +132,61 @@ Moment<D> TwoRateMotion<D>::moment(const Jet<D>& jet, double t, const Table<D>& 
 
 /// The parabola through the remembered values: its weights at t.
 template <int D>
-std::array<double, TwoRateMotion<D>::moments> TwoRateMotion<D>::weights(double t) const {
+typename TwoRateMotion<D>::Weights TwoRateMotion<D>::weights(double t) const {
   const double t0 = past_[0].t, t1 = past_[1].t, t2 = past_[2].t;
   return {(t - t1) * (t - t2) / ((t0 - t1) * (t0 - t2)), (t - t0) * (t - t2) / ((t1 - t0) * (t1 - t2)),
           (t - t0) * (t - t1) / ((t2 - t0) * (t2 - t1))};
 }
 
+/// Rows of what the parabola gives for a table of the moments.
+template <int D>
+template <class Array>
+auto TwoRateMotion<D>::continuation(const Weights& w, Array Moment<D>::*table, Rows rows) const {
+  const auto remembered = [&](int k) { return (past_[k].*table).middleRows(rows.first, rows.size()); };
+  return w[0] * remembered(0) + w[1] * remembered(1) + w[2] * remembered(2);
+}
+
 template <int D>
 void TwoRateMotion<D>::continued(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
-  const int n = static_cast<int>(y.rows()), slow = n - fast_old - fast_young;
-  const double Q = full_.coulomb()->Q();
-  const auto w = weights(t);
+  const int n = static_cast<int>(y.rows());
+  const Rows slow{fast_old, n - fast_young};
+  const Weights w = weights(t);
   slope.resize(n, Eigen::NoChange);
   field_.resize(n + 2, Eigen::NoChange);
   set_boundary<D>(chain_, jet, full_.nozzle(), t, y);
 
-  slope.middleRows(fast_old, slow).template leftCols<D>() =
-      y.middleRows(fast_old, slow).template middleCols<D>(velocity_column<D>);
-  slope.middleRows(fast_old, slow).template rightCols<D + 1>() =
-      w[0] * past_[0].slope.middleRows(fast_old, slow) + w[1] * past_[1].slope.middleRows(fast_old, slow) +
-      w[2] * past_[2].slope.middleRows(fast_old, slow);
+  slope.middleRows(slow.first, slow.size()).template leftCols<D>() =
+      y.middleRows(slow.first, slow.size()).template middleCols<D>(velocity_column<D>);
+  slope.middleRows(slow.first, slow.size()).template rightCols<D + 1>() =
+      continuation(w, &Moment<D>::slope, slow);
+  field_.middleRows(slow.first, slow.size()).setZero();
   for (const End& end : ends(n, chain_.points())) {
     set_elements<D>(chain_, jet, full_.nozzle(), t, y, {end.window.first, std::min(end.window.last, n)});
     full_.set_local(chain_, y, end.fast, slope);
     set_near_field<D>(chain_.point, chain_.point_charge, end, field_);
-    const int i = end.fast.first, m = end.fast.size();
-    const Points field = field_.middleRows(i, m) + w[0] * past_[0].far.middleRows(i, m) +
-                         w[1] * past_[1].far.middleRows(i, m) + w[2] * past_[2].far.middleRows(i, m);
-    slope.middleRows(i, m).template middleCols<D>(velocity_column<D>) +=
-        field.colwise() * (Q * jet.charge.segment(i, m) / jet.mass.segment(i, m));
+    field_.middleRows(end.fast.first, end.fast.size()) += continuation(w, &Moment<D>::far, end.fast);
   }
-  if (jet.held && chain_.point_charge[n] > 0) {
-    const int far = n - fast_young;  // beads that do not have the held one among their near points
+  if (jet.held) {
+    // the other beads have the held one among their near points
     const Vec<D> held = chain_.point.row(n).matrix().transpose();
-    const Points points = y.topRows(far).template leftCols<D>();
-    slope.topRows(far).template middleCols<D>(velocity_column<D>) +=
-        field_of<D>(chain_.point_charge[n], held, points, far).colwise() *
-        (Q * jet.charge.head(far) / jet.mass.head(far));
+    add_field_of<D>(chain_.point_charge[n], held, columns<D>(y), slow.last, columns<D>(field_));
   }
+  specific_charge_ = full_.coulomb()->Q() * jet.charge / jet.mass;
+  for (int k = 0; k < D; ++k) slope.col(velocity_column<D> + k) += specific_charge_ * field_.col(k).head(n);
 }
 
 /// What the continuation would have given now against what is true, in the norm of the step control.
 template <int D>
 double TwoRateMotion<D>::mismatch(const Jet<D>& jet, double t, const Table<D>& y,
                                   const Moment<D>& now) const {
-  Table<D> error = Table<D>::Zero(y.rows(), 2 * D + 1);
-  const auto w = weights(t);
-  error.template rightCols<D + 1>() =
-      w[0] * past_[0].slope + w[1] * past_[1].slope + w[2] * past_[2].slope - now.slope;
-  for (const End& end : ends(static_cast<int>(y.rows()), static_cast<int>(now.point.rows()))) {
+  const int n = static_cast<int>(y.rows());
+  const Weights w = weights(t);
+  Table<D> error(n, 2 * D + 1);
+  error.template leftCols<D>().setZero();
+  error.template rightCols<D + 1>() = continuation(w, &Moment<D>::slope, {0, n}) - now.slope;
+  for (const End& end : ends(n, n + 1)) {
     const int i = end.fast.first, m = end.fast.size();
-    const Points far = w[0] * past_[0].far.middleRows(i, m) + w[1] * past_[1].far.middleRows(i, m) +
-                       w[2] * past_[2].far.middleRows(i, m) - now.far.middleRows(i, m);
+    const Points far = continuation(w, &Moment<D>::far, end.fast) - now.far.middleRows(i, m);
     error.middleRows(i, m).template middleCols<D>(velocity_column<D>) =
         far.colwise() * (full_.coulomb()->Q() * jet.charge.segment(i, m) / jet.mass.segment(i, m));
     error.middleRows(i, m).col(stress_column<D>).setZero();

@@ -33,6 +33,8 @@ struct Moment {
   Points field;  ///< E at the beads, of all points
   Points far;    ///< E at the fast beads, of the points that are not near
   Eigen::Array<double, Eigen::Dynamic, D + 1> slope;  ///< acceleration and stress rate
+
+  void visit(Archive& state) { state(t, point, point_charge, field, far, slope); }
 };
 
 template <int D>
@@ -46,15 +48,20 @@ class TwoRateMotion final : public Motion<D> {
   void before_removal(const Jet<D>& jet) override;
   void after_release(const Jet<D>& jet) override;
 
+  void visit(Archive& state) override { state(full_, past_, remembered_, interval_, full_evaluations_); }
+
   std::int64_t full_evaluations() const { return full_evaluations_; }
 
  private:
   static constexpr int moments = 3;
   using Points = typename Chain<D>::Points;
+  using Weights = std::array<double, moments>;
 
   bool continues(Eigen::Index beads) const;
   void continued(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope);
-  std::array<double, moments> weights(double t) const;
+  Weights weights(double t) const;
+  template <class Array>
+  auto continuation(const Weights& w, Array Moment<D>::*table, Rows rows) const;
   Moment<D> moment(const Jet<D>& jet, double t, const Table<D>& slope) const;
   double mismatch(const Jet<D>& jet, double t, const Table<D>& y, const Moment<D>& now) const;
   void remember(Moment<D>&& now);
@@ -66,7 +73,8 @@ class TwoRateMotion final : public Motion<D> {
   int remembered_ = 0;
   double interval_ = 0;
   Chain<D> chain_;
-  Points field_;
+  Points field_;  ///< of this stage
+  Eigen::ArrayXd specific_charge_;
   std::int64_t full_evaluations_ = 0;
 };
 

@@ -52,6 +52,8 @@ struct Avx2 {
 
 const WideKernels wide_avx2 = {direct<Avx2, 1>,
                                direct<Avx2, 3>,
+                               direct_mutual<Avx2, 1>,
+                               direct_mutual<Avx2, 3>,
                                p2p<Avx2>,
                                p2p_single<Avx2>,
                                ExpansionKernel<Avx2>::reach,

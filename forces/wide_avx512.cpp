@@ -65,6 +65,8 @@ struct Avx512 {
 
 const WideKernels wide_avx512 = {direct<Avx512, 1>,
                                  direct<Avx512, 3>,
+                                 direct_mutual<Avx512, 1>,
+                                 direct_mutual<Avx512, 3>,
                                  p2p<Avx512>,
                                  p2p_single<Avx512>,
                                  ExpansionKernel<Avx512>::reach,

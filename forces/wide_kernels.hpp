@@ -17,6 +17,10 @@ struct WideKernels {
   using Direct = void (*)(const double* const* r, const double* q, int n, Rows rows, double* const* field);
   Direct direct_1d, direct_3d;
 
+  /// The whole field of at most 512 charges (few_points of coulomb.hpp) by Newton's third law.
+  using Mutual = void (*)(const double* const* r, const double* q, int n, double* const* field);
+  Mutual mutual_1d, mutual_3d;
+
   /// The near field of the points of a cell, to arrays in tree order.
   void (*p2p)(const CellPoints& target, const CellRange* source, int count, double* const* field);
 

@@ -38,6 +38,8 @@ struct Plain {
 
 const WideKernels wide_plain = {direct<Plain, 1>,
                                 direct<Plain, 3>,
+                                direct_mutual<Plain, 1>,
+                                direct_mutual<Plain, 3>,
                                 p2p<Plain>,
                                 p2p_single<Plain>,
                                 ExpansionKernel<Plain>::reach,

@@ -9,6 +9,7 @@
 #include <array>
 #include <utility>
 
+#include "core/weighted_sum.hpp"
 #include "integrators/stepper.hpp"
 
 namespace treejet {
@@ -21,8 +22,8 @@ class EmbeddedRungeKutta final : public Stepper<D> {
 
   void step(Motion<D>& f, const Jet<D>& jet, const Node<D>& from, double h, Table<D>& next) override {
     evaluate_stages(f, jet, from, h, std::make_integer_sequence<int, stages - 1>());
-    next = from.y + h * sum<stages>(from.slope);
-    this->error = h * sum<stages + 1>(from.slope);
+    add<stages>(&from.y, from.slope, h, next);
+    add<stages + 1>(nullptr, from.slope, h, this->error);
   }
 
  private:
@@ -36,7 +37,7 @@ class EmbeddedRungeKutta final : public Stepper<D> {
 
   template <int i>
   void evaluate_stage(Motion<D>& f, const Jet<D>& jet, const Node<D>& from, double h) {
-    stage_ = from.y + h * sum<i>(from.slope);
+    add<i>(&from.y, from.slope, h, stage_);
     f(jet, from.t + Tableau::c[i] * h, stage_, k_[i]);
   }
 
@@ -45,16 +46,25 @@ class EmbeddedRungeKutta final : public Stepper<D> {
     return i < stages ? Tableau::a[i - 1][j] : i == stages ? Tableau::b[j] : Tableau::difference[j];
   }
 
-  /// The slopes before stage i, weighted: one expression, one pass, zero weights left out.
-  template <int i, int j = (i < stages ? i : stages) - 1>
-  auto sum(const Table<D>& first) const {
-    if constexpr (j == 0) {
-      return weight(i, 0) * first;
-    } else if constexpr (weight(i, j) == 0) {
-      return sum<i, j - 1>(first);
-    } else {
-      return sum<i, j - 1>(first) + weight(i, j) * k_[j];
+  /// out = y + h times the slopes before stage i, weighted; zero weights left out.
+  template <int i>
+  void add(const Table<D>* y, const Table<D>& first, double h, Table<D>& out) const {
+    constexpr int before = i < stages ? i : stages;
+    constexpr auto counts = [](int j) { return weight(i, j) != 0; };
+    constexpr auto count = [&] {
+      std::size_t n = 0;
+      for (int j = 0; j < before; ++j) n += counts(j);
+      return n;
+    }();
+    std::array<double, count> w;
+    std::array<const double*, count> k;
+    for (std::size_t j = 0, n = 0; n < count; ++j) {
+      if (!counts(static_cast<int>(j))) continue;
+      w[n] = h * weight(i, static_cast<int>(j));
+      k[n++] = j == 0 ? first.data() : k_[j].data();
     }
+    out.resize(first.rows(), Eigen::NoChange);
+    weighted_sum(y ? y->data() : nullptr, w, k, first.size(), out.data());
   }
 
   Table<D> stage_;

@@ -153,7 +153,7 @@ double March<D>::attempt(double end) {
 }
 
 template <int D>
-void March<D>::to(double end) {
+void March<D>::start() {
   now_.t = parts_.jet.t;
   now_.y = parts_.jet.y;
   for (auto* w : parts_.watchers) w->start(parts_.jet);
@@ -161,7 +161,14 @@ void March<D>::to(double end) {
   if (auto what = not_finite<D>(now_.y, now_.slope, parts_.jet.removed)) {
     throw NumericalError(fmt::format("at scaled time {}: {}", now_.t, *what));
   }
+  under_way_ = true;
+}
+
+template <int D>
+bool March<D>::to(double end) {
+  if (!under_way_) start();
   while (now_.t < end && now_.y.rows() > 0) {
+    if (parts_.pause && parts_.pause()) return false;
     const double reach = attempt(end);
     if (auto what = trouble<D>(now_.y, next_.y, parts_.jet.removed)) {
       throw NumericalError(fmt::format("at scaled time {}: {}", next_.t, *what));
@@ -177,6 +184,13 @@ void March<D>::to(double end) {
   parts_.jet.t = now_.t;
   parts_.jet.y = now_.y;
   for (auto* w : parts_.watchers) w->finish(parts_.jet);
+  under_way_ = false;
+  return true;
+}
+
+template <int D>
+void March<D>::visit(Archive& state) {
+  state(parts_.jet, parts_.motion, parts_.control, now_, youngest_jerk_, oldest_jerk_, effort_, under_way_);
 }
 
 /// The event that ends this step, if any. An adaptive step with an event well inside is made anew to end

@@ -40,14 +40,20 @@ class March {
     EventRule events = EventRule::located;
     double tolerance = 0;  ///< of the step control; 0 with fixed steps
     std::vector<Watcher<D>*> watchers;
+    std::function<bool()> pause = {};  ///< asked between any two steps: whether to stop there
   };
 
   explicit March(const Parts& parts) : parts_(parts), one_(1, 2 * D + 1) {}
 
-  /// On to scaled time `end`, or until the jet is empty.
-  void to(double end);
+  /// On to scaled time `end`, or until the jet is empty. False if told to pause before; the next call goes on
+  /// from there.
+  bool to(double end);
 
   const Effort& effort() const { return effort_; }
+  double t() const { return now_.t; }
+
+  /// All between two steps: the march, what it moves and by what rules. Not the watchers.
+  void visit(Archive& state);
 
  private:
   struct Due {
@@ -56,6 +62,7 @@ class March {
   };
 
   bool aims() const { return parts_.control.steps_to_events() && parts_.events == EventRule::located; }
+  void start();
   void evaluate(Node<D>& node);
   void step(double h);
   [[noreturn]] void give_up() const;
@@ -78,6 +85,7 @@ class March {
       oldest_jerk_;  ///< third derivatives at now_, unless an event has just passed
   Table<D> one_;
   Effort effort_;
+  bool under_way_ = false;  ///< started, and not yet at the end
 };
 
 }  // namespace treejet

@@ -2,37 +2,73 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
+#include "core/scales.hpp"
 #include "integrators/choice.hpp"
 
 namespace treejet {
 
 template <int D>
-Simulation<D>::Simulation(const Parameters& p, const Scene& scene, const OutputSetting& setting)
-    : jet_(scene.jet),
-      stepper_(stepper<D>(chosen_scheme(p))),
-      control_(step_control(p)),
-      outputs_(p, scene.nozzle, scene.collector, setting),
-      march_({scene.jet, scene.motion, *stepper_, *control_, scene.nozzle, scene.collector, p.events,
-              p.tolerance.value_or(0), outputs_.watchers()}),
-      end_(p.final_time / scales(p).time) {}
+Simulation<D>::Simulation(const Deck& deck, const Scene& scene, const Setting& setting)
+    : deck_(deck),
+      jet_(scene.jet),
+      setting_(setting),
+      checkpoints_(setting.outputs.elsewhere
+                       ? std::nullopt
+                       : std::optional<Checkpoints>({setting.outputs.directory, setting.outputs.existing})),
+      stepper_(stepper<D>(chosen_scheme(deck.parameters))),
+      control_(step_control(deck.parameters)),
+      outputs_(deck.parameters, scene.nozzle, scene.collector, setting.outputs),
+      march_({scene.jet, scene.motion, *stepper_, *control_, scene.nozzle, scene.collector,
+              deck.parameters.events, deck.parameters.tolerance.value_or(0), outputs_.watchers(),
+              [this] { return pause(); }})  {}
 
 template <int D>
-void Simulation<D>::finish() {
-  const auto started = std::chrono::steady_clock::now();
-  march_.to(end_);
-  seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+bool Simulation<D>::finish() {
+  const bool arrived = march_.to(deck_.parameters.final_time / scales(deck_.parameters).time);
+  if (arrived && checkpoints_) checkpoints_->remove();
+  return arrived;
+}
+
+template <int D>
+bool Simulation<D>::pause() {
+  const Wish wish = setting_.wish();
+  if (wish == Wish::go_on) return false;
+  if (!checkpoints_) return wish == Wish::stop;
+  Checkpoint checkpoint{setting_.program, deck_.name, deck_.text, deck_.overrides, t(), {}};
+  visit(checkpoint.state);
+  checkpoints_->write(checkpoint);
+  return wish == Wish::stop;
+}
+
+template <int D>
+void Simulation<D>::resume(Checkpoint& checkpoint) {
+  visit(checkpoint.state);
+}
+
+template <int D>
+void Simulation<D>::visit(State& state) {
+  const auto now = Clock::now();
+  auto elapsed = now - started_;
+  state.part("march", march_);
+  state.part("elapsed", elapsed);
+  started_ = now - elapsed;
+  outputs_.visit(state);
+}
+
+template <int D>
+double Simulation<D>::t() const {
+  return march_.t() * scales(deck_.parameters).time;
 }
 
 template <int D>
 std::string Simulation<D>::summary() const {
   const Effort& e = march_.effort();
-  std::string text = fmt::format("done in {:.3g} s: {} beads on the jet, {} inserted, {} arrived\n", seconds_,
+  const double seconds = std::chrono::duration<double>(Clock::now() - started_).count();
+  std::string text = fmt::format("done in {:.3g} s: {} beads on the jet, {} inserted, {} arrived\n", seconds,
                                  jet_.size() + jet_.held, e.placed, e.removed);
   text += fmt::format(
       "{} evaluations of the forces in {} steps ({} rejected, {} made anew for an event), {:.3g} us each\n",
-      e.evaluations, e.steps, e.rejected, e.redone, 1e6 * seconds_ / double(e.evaluations));
+      e.evaluations, e.steps, e.rejected, e.redone, 1e6 * seconds / double(e.evaluations));
   for (const auto& line : outputs_.summary()) text += line + "\n";
   return text;
 }

@@ -1,10 +1,18 @@
 #pragma once
-/// A simulation: the scheme, step control and outputs that a deck's parameters ask for, and the march of a
-/// composed scene through them to the deck's final time.
+/// A simulation: the scheme, step control and outputs that a deck asks for, and the march of a composed scene
+/// through them to the deck's final time, with checkpoints on the way.
+///
+/// Whether it is to be saved or stopped is asked between any two steps. A simulation stopped and resumed,
+/// however often, takes the same steps and leaves the same files, to the bit, as one that was left alone.
 
+#include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 
+#include "core/checkpoint.hpp"
+#include "core/deck.hpp"
+#include "core/interruption.hpp"
 #include "core/outputs.hpp"
 #include "integrators/march.hpp"
 
@@ -21,22 +29,40 @@ class Simulation {
     const Collector& collector;
   };
 
-  /// Opens the files; FileError if one exists already or cannot be made.
-  Simulation(const Parameters& p, const Scene& scene, const OutputSetting& setting);
+  struct Setting {
+    OutputSetting outputs;
+    std::string program = {};                                 ///< what checkpoints say made them
+    std::function<Wish()> wish = [] { return Wish::go_on; };  ///< asked between any two steps
+  };
 
-  void finish();
+  /// Opens the files; FileError if one exists already or cannot be made, or cannot be gone on with.
+  Simulation(const Deck& deck, const Scene& scene, const Setting& setting);
+
+  /// Takes up where the checkpoint was written: the deck is the checkpoint's, the outputs are to be resumed.
+  void resume(Checkpoint& checkpoint);
+
+  /// On to the final time. False if stopped before, with a checkpoint.
+  bool finish();
+
+  double t() const;  ///< s
 
   /// What `finish` did: time, beads, effort, files.
   std::string summary() const;
 
  private:
+  bool pause();
+  void visit(State& state);
+
+  const Deck& deck_;
   const Jet<D>& jet_;
+  Setting setting_;
+  std::optional<Checkpoints> checkpoints_;  ///< none if another process makes the outputs
   std::unique_ptr<Stepper<D>> stepper_;
   std::unique_ptr<StepControl> control_;
   Outputs<D> outputs_;
   March<D> march_;
-  double end_;          ///< scaled
-  double seconds_ = 0;  ///< wall clock
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point started_ = Clock::now();  ///< as if never stopped
 };
 
 }  // namespace treejet

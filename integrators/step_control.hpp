@@ -25,6 +25,8 @@ class StepControl {
   /// Whether an event well inside a step is met by a new step that ends there, rather than by dense output.
   virtual bool steps_to_events() const = 0;
   virtual void event(EventKind) {}
+  /// What a control remembers from one step to the next.
+  virtual void visit(Archive&) {}
 };
 
 class FixedStep final : public StepControl {
@@ -72,6 +74,8 @@ class AdaptiveStep final : public StepControl {
   void event(EventKind kind) override {
     if (kind == EventKind::place) h_ *= 0.5;  // the held bead's charge starts to rise
   }
+
+  void visit(Archive& state) override { state(h_, previous_error_, rejected_); }
 
  private:
   double h_;

@@ -7,7 +7,7 @@
 /// heard: the standard output of the others leads nowhere.
 ///
 /// A Ranks is a value. Copies stand for the same rank; a default one is alone and sends nothing. What sends
-/// (join_ranks, gather, times, agree, threads_each, crowding) is called by all ranks in the same order, by
+/// (join_ranks, gather, times, agree, greatest, threads_each, crowding) is called by all ranks in the same order, by
 /// their main threads. The only mpi.h is in ranks_mpi.cpp; ranks_alone.cpp stands in for it where there is no
 /// MPI.
 
@@ -56,6 +56,9 @@ class Ranks {
 
   /// Whether all ranks have the same text.
   bool agree(const std::string& text) const;
+
+  /// The greatest of the ranks' numbers.
+  int greatest(int number) const;
 
   /// Threads for each rank so that those on a node do not take each other's cores.
   int threads_each() const;

@@ -150,6 +150,11 @@ bool Ranks::agree(const std::string& text) const {
   return bounds[0] == ~bounds[1];
 }
 
+int Ranks::greatest(int number) const {
+  if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, &number, 1, MPI_INT, MPI_MAX, world_->everyone);
+  return number;
+}
+
 int Ranks::threads_each() const {
   if (const auto named = threads_named()) return *named;
   if (!world_) return available_cores();

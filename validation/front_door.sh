@@ -75,6 +75,54 @@ if [ "$(id -u)" != 0 ]; then
 fi
 [ -w /dev/full ] && mkdir full && ln -s /dev/full full/statdat.dat && expect 4 "a full disk" short --out full --force
 
+# A run of some tenths of a second that is stopped, or disturbed, once it has written a few rows.
+long() { "$treejet" run "$pvp" --quiet --set "final time 4.d-2" --set "print time 1.d-4" --set "print xyz 2.d-4" "$@"; }
+begun() { until [ -e "$1/statdat.dat" ] && [ "$(wc -l <"$1/statdat.dat")" -gt 9 ]; do sleep 0.01; done; }
+same() { for file in statdat.dat traj.xyz; do cmp -s "whole/$file" "$1/$file" || fail "$file of $2 differs from the uninterrupted run's"; done; }
+
+expect 0 "a run left alone" long --out whole
+for signal in TERM USR1 INT; do
+  # a background job of sh starts with SIGINT ignored, which the program respects
+  env --default-signal=INT "$treejet" run "$pvp" --quiet --set "final time 4.d-2" --set "print time 1.d-4" --set "print xyz 2.d-4" --out $signal 2>err &
+  begun $signal
+  kill -$signal $!
+  wait $!
+  is "exit code of a run stopped by $signal" $? 75
+  grep -q "SIG$signal.*treejet run --resume $signal" err || fail "the message does not tell how to go on: $(cat err)"
+  expect 4 "starting over where a run was stopped" long --out $signal
+  grep -q -- --resume err || fail "the message does not tell of --resume"
+  expect 0 "going on after $signal" "$treejet" run --resume $signal --quiet --threads 2
+  same $signal "a run stopped by $signal"
+  is "files of a run stopped by $signal" "$(ls $signal | tr '\n' ' ')" "statdat.dat traj.xyz "
+done
+expect 4 "resuming a run that has ended" "$treejet" run --resume TERM
+
+expect 75 "a run with no time" long --out late --walltime 0.001
+expect 2 "resuming with another deck" "$treejet" run --resume late "$pvp" --set "viscosity 30"
+grep -q 'viscosity: 30 here, 20 there' err || fail "the message does not name the difference: $(cat err)"
+expect 2 "--resume with --out" "$treejet" run --resume late --out elsewhere
+expect 2 "a malformed walltime" long --out wrong --walltime 1:70:00
+head -c 100 late/checkpoint >cut && mv cut late/checkpoint
+expect 4 "resuming from a checkpoint cut short" "$treejet" run --resume late
+grep -q 'late/checkpoint: cut short' err || fail "the message does not tell what is wrong: $(cat err)"
+
+# A disk that fills up in the middle of the trajectory, and has room again later.
+(ulimit -f 400 && long --out filled --set "checkpoint 0.01" 2>err)
+is "exit code with the disk full" $? 4
+grep -q 'filled/.*: writing failed: File too large' err || fail "the message does not name the file: $(cat err)"
+for file in statdat.dat traj.xyz; do
+  head -c "$(wc -c <filled/$file)" whole/$file | cmp -s - filled/$file || fail "$file was damaged when the disk was full"
+done
+expect 0 "going on with room on the disk" "$treejet" run --resume filled --quiet
+same filled "a run that had filled the disk"
+
+long --out removed 2>err &
+begun removed
+rm removed/traj.xyz
+wait $!
+is "exit code with a file removed" $? 4
+grep -q 'removed/traj.xyz: was removed' err || fail "the message does not name the file removed: $(cat err)"
+
 # steps a thousand times too large
 expect 3 "a numerical failure" "$treejet" run "$pvp" --out stopped --quiet --set "integrator 2" --set "timestep 1.d-3" --set "final time 5.d-2" --set "print time 1.d-3"
 grep -q 'bead' err && grep -q 'time' err && grep -q 'likely cause' err || fail "the message names no bead, time or cause: $(cat err)"

@@ -19,6 +19,9 @@ void study_time_reversal(Report& report);
 /// tolerance.
 void study_stiffness(Report& report);
 
+/// Runs killed at random moments and resumed, over and over: what is left after each death, and in the end.
+void study_restart(Report& report);
+
 /// Speedup and efficiency of ranks and threads on case 3 at several sizes, as in the paper's performance
 /// section, and that none of them changes a bit of the answer.
 void study_scaling(Report& report);

@@ -57,15 +57,21 @@ Field<D> direct(const Points<D>& p, VectorPath path) {
   return e;
 }
 
+template <int D>
+Field<D> mutual(const Points<D>& p, VectorPath path) {
+  Field<D> e(p.view().n);
+  coulomb_mutual<D>(p.view(), e.view(), path);
+  return e;
+}
+
 /// Largest difference from the plain sum, in units of sum_j |q_j| / d^2: the terms whose round-off adds up.
 template <int D>
-double relative_difference(const Points<D>& p, VectorPath path) {
+double relative_difference(const Points<D>& p, const Field<D>& wide) {
   const int n = p.view().n;
   Points<D> absolute = p;
   for (double& q : absolute.q) q = std::abs(q);
   Field<D> plain(n);
   coulomb_plain<D>(p.view(), {0, n}, plain.view(), n);
-  const Field<D> wide = direct(p, path);
   double worst = 0;
   for (int i = 0; i < n; ++i) {
     double size = 0;
@@ -132,10 +138,30 @@ TEST_CASE("Every wide path agrees with the plain sum to round-off for any number
   for (VectorPath path : paths_here()) {
     CAPTURE(name(path));
     for (int n = 1; n <= 70; ++n) {
-      CHECK(relative_difference(random_points<3>(n, 100u + static_cast<unsigned>(n)), path) < 2e-15);
-      CHECK(relative_difference(random_points<1>(n, 200u + static_cast<unsigned>(n)), path) < 2e-15);
+      const Points<3> p = random_points<3>(n, 100u + static_cast<unsigned>(n));
+      const Points<1> line = random_points<1>(n, 200u + static_cast<unsigned>(n));
+      CHECK(relative_difference(p, direct(p, path)) < 2e-15);
+      CHECK(relative_difference(line, direct(line, path)) < 2e-15);
     }
-    CHECK(relative_difference(random_points<3>(1000, 1), path) < 2e-15);
+    const Points<3> many = random_points<3>(1000, 1);
+    CHECK(relative_difference(many, direct(many, path)) < 2e-15);
+  }
+}
+
+TEST_CASE("By Newton's third law the field is the same to round-off for any number of points") {
+  for (VectorPath path : paths_here()) {
+    CAPTURE(name(path));
+    for (int n : {1, 2, 7, 8, 9, 15, 16, 17, 31, 33, 64, 150, 511, few_points}) {
+      const Points<3> p = random_points<3>(n, 300u + static_cast<unsigned>(n));
+      const Points<1> line = random_points<1>(n, 400u + static_cast<unsigned>(n));
+      CAPTURE(n);
+      CHECK(relative_difference(p, mutual(p, path)) < 2e-15);  // as above
+      CHECK(relative_difference(line, mutual(line, path)) < 2e-15);
+    }
+    Points<3> meeting = random_points<3>(40, 5);
+    for (auto& x : meeting.r) x[35] = x[3];
+    CHECK_FALSE(std::isfinite(mutual(meeting, path)(0, 3)));
+    CHECK_FALSE(std::isfinite(mutual(meeting, path)(2, 35)));
   }
 }
 

@@ -22,6 +22,13 @@ Exact circumcircle(const Exact& u, const Exact& s) {
   return centre / centre.squaredNorm();
 }
 
+/// The curvature vector of the circle through the origin, u and s.
+Vec<3> through(const Vec<3>& u, const Vec<3>& s) {
+  const Vec<3> U = u / u.squaredNorm(), S = s / s.squaredNorm();
+  const Triple k = curvature({U[0], U[1], U[2]}, {S[0], S[1], S[2]});
+  return {k[0], k[1], k[2]};
+}
+
 }  // namespace
 
 TEST_CASE("Beads on a circle have curvature 1/R towards its centre, however far apart") {
@@ -33,7 +40,7 @@ TEST_CASE("Beads on a circle have curvature 1/R towards its centre, however far 
     const Vec<3> f = e.cross(Vec<3>(normal(random), normal(random), normal(random))).normalized();
     const double R = std::exp(normal(random)), back = 0.02 + 0.5 * std::abs(normal(random)), ahead = 0.4;
     const auto at = [&](double phi) { return Vec<3>(R * (std::cos(phi) * e + std::sin(phi) * f)); };
-    const Vec<3> r = at(0), k = curvature(at(-back) - r, at(ahead) - r);
+    const Vec<3> r = at(0), k = through(at(-back) - r, at(ahead) - r);
     // differences of coordinates of size R carry 1e-16 R; a sagitta of R back ahead / 2 divides them
     const double round_off = 1e-15 / (back * ahead);
     CHECK(k.norm() * R == Approx(1).epsilon(round_off));
@@ -47,7 +54,7 @@ TEST_CASE("Nearly collinear beads have a curvature good to the round-off of thei
     CAPTURE(angle);
     const Vec<3> u(1, angle, -angle / 3), s(-0.7, 0.2 * angle, angle / 5);
     const Exact exact = circumcircle(u.cast<long double>(), s.cast<long double>());
-    const Vec<3> k = curvature(u, s);
+    const Vec<3> k = through(u, s);
     // the vector is the small difference of O(1) terms: absolute round-off of a few 1e-16, whatever its size
     CHECK((k.cast<long double>() - exact).norm() < 2e-15);
     // along the bead's normal it keeps its relative precision, there the terms themselves are small

@@ -11,7 +11,7 @@
 namespace {
 
 constexpr const char* lesson = R"(
-Each study prints tables, writes them to DIR as CSV and draws them with validation/plot_validation.py.
+Each study prints tables, writes them to DIR as CSV and draws what can be drawn with validation/plot_validation.py.
 Exit codes: 0 all claims hold, 1 one does not, 2 arguments, 4 files.)";
 
 int draw(const std::string& directory) {
@@ -27,6 +27,8 @@ int run(const std::string& study, const std::string& directory, bool quick) {
     treejet::study_time_reversal(report);
     treejet::study_reference_values(report);
     treejet::study_work_precision(report);
+  } else if (study == "restart") {
+    treejet::study_restart(report);
   } else if (study == "scaling") {
     treejet::study_scaling(report);
   } else {
@@ -34,7 +36,7 @@ int run(const std::string& study, const std::string& directory, bool quick) {
     treejet::study_extreme_cases(report);
   }
   const int failures = report.conclude("checks_" + study);
-  if (draw(directory) != 0) fmt::print(stderr, "treejet-validate: the pictures could not be drawn\n");
+  if (study != "restart" && draw(directory) != 0) fmt::print(stderr, "treejet-validate: the pictures could not be drawn\n");
   if (failures > 0) fmt::print("\n{} claims do not hold\n", failures);
   return failures > 0 ? 1 : 0;
 }
@@ -50,6 +52,7 @@ int main(int argc, char** argv) {
   for (const auto& [study, meaning] :
        {std::pair{"time", "Error against work, orders of convergence, time reversal"},
         std::pair{"stability", "Largest stable steps, extreme cases"},
+        std::pair{"restart", "Runs killed at random moments and resumed"},
         std::pair{"scaling", "Speedup and efficiency of ranks and threads"}}) {
     auto& command = *app.add_subcommand(study, meaning);
     command.add_option("--out", directory, "directory of tables and pictures, made if missing")

@@ -1,0 +1,102 @@
+#pragma once
+/// The state of an object as bytes: written and read by one list of its members,
+///
+///     void visit(Archive& state) { state(t_, y_, count_); }
+///
+/// which stands next to the members. Members may be plain structs and numbers, which go as a whole so that
+/// none of their members can be forgotten, Eigen's dense types, strings, optionals, vectors, arrays, and
+/// whatever has a `visit` itself. What follows from the deck or is computed anew before it is used is not
+/// listed.
+///
+/// Each piece carries its size, so that a state of another layout is noticed: FileError. Byte order and
+/// number formats are the machine's. No serialising library: steppers, motions and watchers are reached
+/// through virtual functions, which need one archive type for both directions; what a library would add to
+/// that is the few lines below.
+
+#include <Eigen/Core>
+#include <array>
+#include <concepts>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace treejet {
+
+class Archive {
+ public:
+  /// To be written.
+  Archive() = default;
+  /// To be read; the bytes outlive the archive.
+  explicit Archive(const std::string& bytes) : source_(&bytes) {}
+
+  template <class... T>
+  void operator()(T&... members) {
+    (one(members), ...);
+  }
+
+  bool reading() const { return source_ != nullptr; }
+  /// What has been written.
+  std::string bytes() && { return std::move(written_); }
+  /// All that was written has been read, else FileError.
+  void expect_end() const;
+
+ private:
+  void block(void* data, std::size_t size);
+  /// The number of elements of `size` bytes each that follow; when writing, `count`.
+  std::size_t counted(std::size_t count, std::size_t size);
+
+  template <class T>
+  void one(T& value) {
+    if constexpr (std::derived_from<T, Eigen::PlainObjectBase<T>>) {
+      static_assert(T::ColsAtCompileTime != Eigen::Dynamic);
+      constexpr std::size_t row = std::size_t{T::ColsAtCompileTime} * sizeof(typename T::Scalar);
+      const std::size_t rows = counted(static_cast<std::size_t>(value.rows()), row);
+      if constexpr (T::RowsAtCompileTime == Eigen::Dynamic)
+        if (reading()) value.resize(static_cast<Eigen::Index>(rows), T::ColsAtCompileTime);
+      block(value.data(), static_cast<std::size_t>(value.rows()) * row);
+    } else if constexpr (requires { value.visit(*this); }) {
+      value.visit(*this);
+    } else {
+      static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>,
+                    "a class with more than plain members needs a visit");
+      block(&value, sizeof value);
+    }
+  }
+
+  void one(std::string& text) {
+    text.resize(counted(text.size(), 1));
+    block(text.data(), text.size());
+  }
+
+  template <class T>
+  void one(std::vector<T>& values) {
+    if constexpr (std::is_trivially_copyable_v<T>) {
+      values.resize(counted(values.size(), sizeof(T)));
+      block(values.data(), values.size() * sizeof(T));
+    } else {
+      values.resize(counted(values.size(), 1));
+      for (T& value : values) one(value);
+    }
+  }
+
+  template <class T, std::size_t n>
+  void one(std::array<T, n>& values) {
+    for (T& value : values) one(value);
+  }
+
+  template <class T>
+  void one(std::optional<T>& value) {
+    bool there = value.has_value();
+    one(there);
+    if (there && !value) value.emplace();
+    if (!there) value.reset();
+    if (value) one(*value);
+  }
+
+  const std::string* source_ = nullptr;
+  std::size_t at_ = 0;  ///< read up to here
+  std::string written_;
+};
+
+}  // namespace treejet
