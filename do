@@ -5,9 +5,10 @@
 set -eu
 cd "$(dirname "$0")"
 
-for_building="g++ cmake ninja-build libeigen3-dev libfmt-dev libcli11-dev zlib1g-dev libopenmpi-dev openmpi-bin"
+for_building="g++ cmake ninja-build libeigen3-dev libfmt-dev libcli11-dev zlib1g-dev libhdf5-dev nlohmann-json3-dev
+  libopenmpi-dev openmpi-bin"
 for_pictures="python3-matplotlib"
-for_tests="catch2 libsundials-dev"
+for_tests="catch2 libsundials-dev hdf5-tools python3-h5py python3-ase"
 
 log=build/do.log
 

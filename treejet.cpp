@@ -3,32 +3,28 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdio>
 #include <iostream>
 
 #include "core/command_line.hpp"
+#include "core/convert.hpp"
 #include "core/deck.hpp"
 #include "core/error.hpp"
+#include "core/file_info.hpp"
+#include "core/provenance.hpp"
 #include "core/resumption.hpp"
-#include "core/version.hpp"
 #include "forces/coulomb.hpp"
 #include "forces/coulomb_request.hpp"
 #include "forces/field_command.hpp"
 #include "forces/scene_description.hpp"
 #include "integrators/choice.hpp"
 #include "integrators/simulation.hpp"
+#include "integrators/trial_run.hpp"
 
 namespace treejet {
 
 std::string version_text() {
-  const Version v = version();
-  return fmt::format("treejet {} (git {}), {}, {} build, {} vectors", v.number, v.commit, v.compiler, v.build,
-                     vector_path());
-}
-
-std::string notes(const Deck& deck) {
-  std::string text;
-  for (const auto& note : deck.notes) text += fmt::format("note: {}\n", note);
-  return text;
+  return program(provenance({}, vector_path()));
 }
 
 /// "2 ranks, 4 threads each".
@@ -62,25 +58,29 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* ch
   const Parameters& p = deck.parameters;
   const Threads each = threads(a, ranks);
   const std::string directory = checkpoint ? a.resume : a.out;
-  const auto existing = checkpoint ? OutputFile::Existing::resume
-                        : a.force  ? OutputFile::Existing::replace
-                                   : OutputFile::Existing::keep;
+  const auto existing = a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
   // ranks meet signals at different steps and have clocks of their own: the first one's clock counts, and all
   // follow the strongest wish
   Interruption interruption(ranks.first() ? Interruption::Setting{p.checkpoint, a.walltime}
                                           : Interruption::Setting{});
   const auto wish = [&] { return Wish{ranks.greatest(static_cast<int>(interruption.wish()))}; };
   Scene<D> scene = compose<D>(p, each, ranks);
-  Simulation<D> simulation(
-      deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
-      {{directory, existing, a.quiet, !ranks.first()}, version_text(), wish});
+  Simulation<D> simulation(deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
+                           {{directory,
+                             existing,
+                             a.quiet,
+                             !ranks.first(),
+                             provenance(deck, vector_path()),
+                             {ranks.size(), each.count}},
+                            version_text(),
+                            wish,
+                            checkpoint});
   if (!a.quiet) {
     fmt::print("{}\n{}\n{}{}", version_text(), deck.name, notes(deck),
                composition(scene.composed, scene.left_out));
     fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p),
                workers_description(ranks, each));
   }
-  if (checkpoint) simulation.resume(*checkpoint);
   const auto started = std::chrono::steady_clock::now();
   if (!simulation.finish()) {
     if (ranks.first())
@@ -105,10 +105,17 @@ int resume(const Arguments& a, const Ranks& ranks) {
 
 template <int D>
 void check(const Deck& deck) {
-  const Scene<D> scene = compose<D>(deck.parameters, {1});
-  fmt::print("{}: a complete deck\n{}{}{}", deck.name, notes(deck), scales_description(deck.parameters),
+  const Parameters& p = deck.parameters;
+  Scene<D> scene = compose<D>(p, {available_cores()});
+  fmt::print("{}: a complete deck\n{}{}{}", deck.name, notes(deck), scales_description(p),
              composition(scene.composed, scene.left_out));
-  fmt::print("{}, {}\n", name(chosen_scheme(deck.parameters)), steps_description(deck.parameters));
+  fmt::print("{}, {}\n", name(chosen_scheme(p)), steps_description(p));
+  std::fflush(stdout);
+  constexpr double trial_seconds = 1;
+  const Trial trial =
+      trial_run<D>(p, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector}, trial_seconds);
+  const bool all_pairs = !scene.two_rates && p.coulomb == CoulombSum::direct && !p.cutoff;
+  fmt::print("{}", plan_description(p, trial, all_pairs));
 }
 
 int main(const Arguments& a, const Ranks& ranks) {
@@ -120,6 +127,10 @@ int main(const Arguments& a, const Ranks& ranks) {
         std::cout);
     return 0;
   }
+  const auto existing = a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
+  if (a.command == "convert")
+    return fmt::print("{}\n", convert({a.file, a.format, a.converted, existing})), 0;
+  if (a.command == "info") return fmt::print("{}", file_info(a.file)), 0;
   if (!a.resume.empty()) return resume(a, ranks);
   const Deck deck = read_deck(a.deck, a.overrides);
   const bool straight = deck.parameters.system == 1;

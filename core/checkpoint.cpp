@@ -5,6 +5,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -57,6 +58,10 @@ std::string contents(const fs::path& file) {
 }
 
 }  // namespace
+
+bool State::has(const std::string& name) const {
+  return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) { return part.name == name; });
+}
 
 const std::string& State::bytes(const std::string& name) const {
   for (const Part& part : parts_)

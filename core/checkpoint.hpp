@@ -17,7 +17,7 @@
 namespace treejet {
 
 /// The state of a run in named parts, written or read by the same list of them. Whoever reads takes the parts
-/// it knows: a quiet run has no terminal, a rank without files no positions in them.
+/// it knows: a rank without files needs no positions in them.
 class State {
  public:
   /// To be filled in.
@@ -35,6 +35,8 @@ class State {
       parts_.push_back({name, std::move(archive).bytes()});
     }
   }
+
+  bool has(const std::string& name) const;
 
   /// The parts, of a state that from now on is to be read.
   void visit(Archive& archive) {

@@ -101,6 +101,19 @@ void add_field(CLI::App& app, Arguments& a) {
                             "local: dual tree; none: Barnes and Hut's");
 }
 
+void add_files(CLI::App& app, Arguments& a) {
+  auto& convert = *app.add_subcommand("convert", "Write a traj.h5 in the format of another tool");
+  convert.add_option("FILE", a.file, "traj.h5 of a run")->required();
+  convert.add_option("--to", a.format, "xyz (VMD), extxyz (OVITO, ASE), csv, vtp (ParaView)")
+      ->required()
+      ->check(CLI::IsMember({"xyz", "extxyz", "csv", "vtp"}));
+  convert.add_option("--out", a.converted,
+                     "the file (default: beside FILE, with the extension of the format)");
+  convert.add_flag("--force", a.force, "replace files that are there already");
+  auto& info = *app.add_subcommand("info", "Tell what a file of a run contains and what made it");
+  info.add_option("FILE", a.file, "traj.h5, statdat.dat, traj.xyz, run.json, ...")->required();
+}
+
 }  // namespace
 
 std::optional<Arguments> command_line(int argc, char** argv, const std::string& version_text) {
@@ -131,6 +144,7 @@ std::optional<Arguments> command_line(int argc, char** argv, const std::string& 
 
   auto& check = *app.add_subcommand("check", "Read a deck and tell what it composes and leaves out, and why");
   add_deck(check, a)->required();
+  add_files(app, a);
   add_field(app, a);
   app.add_subcommand("template", "Print a commented deck with every directive");
   app.add_subcommand("reference", "Print the tables of directives and observables (Markdown)");

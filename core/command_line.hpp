@@ -10,7 +10,7 @@
 namespace treejet {
 
 struct Arguments {
-  std::string command;  ///< run, check, field, template, reference
+  std::string command;  ///< run, check, convert, info, field, template, reference
   std::string deck;
   std::vector<std::string> overrides;
   std::string out = ".";
@@ -18,6 +18,8 @@ struct Arguments {
   bool quiet = false, force = false;
   std::string resume;              ///< directory of the run to continue; empty: a new run
   std::optional<double> walltime;  ///< s
+
+  std::string file, format, converted;  ///< of convert and info
 
   std::string points, field_out;  ///< of the field command
   CoulombSetting coulomb{.coulomb = CoulombSum::automatic};

@@ -184,6 +184,12 @@ Deck parse_deck(std::string text, std::string name, std::vector<std::string> ove
   return deck;
 }
 
+std::string notes(const Deck& deck) {
+  std::string text;
+  for (const auto& note : deck.notes) text += fmt::format("note: {}\n", note);
+  return text;
+}
+
 Deck read_deck(const std::string& path, const std::vector<std::string>& overrides) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FileError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));

@@ -29,6 +29,9 @@ struct Deck {
 Deck read_deck(const std::string& path, const std::vector<std::string>& overrides = {});
 Deck parse_deck(std::string text, std::string name, std::vector<std::string> overrides = {});
 
+/// The notes, one a line, as the terminal shows them.
+std::string notes(const Deck& deck);
+
 /// A complete, commented deck, ready to run.
 std::string deck_template();
 

@@ -75,7 +75,7 @@ std::string Interruption::reason() const {
     case SIGUSR1:
       return "SIGUSR1";
     default:
-      return "walltime";
+      return setting_.walltime ? "walltime" : "a signal to another process";
   }
 }
 

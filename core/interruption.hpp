@@ -27,7 +27,7 @@ class Interruption {
   explicit Interruption(const Setting& setting);
 
   Wish wish();
-  /// "SIGTERM", "walltime": why the last answer was to stop.
+  /// "SIGTERM", "walltime", "a signal to another process": why the run stops.
   std::string reason() const;
 
  private:

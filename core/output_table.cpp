@@ -18,11 +18,13 @@ std::string label(const std::string& key) {
 }
 }  // namespace
 
-StatFile::StatFile(OutputFile file, const std::vector<std::string>& keys) : file_(std::move(file)) {
+StatFile::StatFile(OutputFile file, const std::vector<std::string>& keys, const Provenance& made_by)
+    : file_(std::move(file)) {
   if (!file_.is_new()) return;
   std::string header = "#";
   for (const auto& key : keys) header += fmt::format(" {}", label(key));
-  file_.write(header + "\n");
+  file_.write(
+      fmt::format("{}\n{}## circumstances: {}\n", header, commented(made_by, "## "), run_record_name));
 }
 
 void StatFile::row(const std::vector<double>& values) {

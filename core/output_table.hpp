@@ -1,21 +1,22 @@
 #pragma once
 /// The two tables of observables.
 ///
-/// statdat.dat: a first line `# key[unit] key[unit] ...`, then one row a print time, numbers with 17
-/// significant digits separated by blanks. The terminal table carries the same rows with fewer digits under a
-/// header of its own.
+/// statdat.dat: a first line `# key[unit] key[unit] ...`, lines `## ...` that tell what made the file, then
+/// one row a print time, numbers with 17 significant digits separated by blanks. The terminal table carries
+/// the same rows with fewer digits under a header of its own.
 
 #include <string>
 #include <vector>
 
 #include "core/output_file.hpp"
+#include "core/provenance.hpp"
 #include "core/recorder.hpp"
 
 namespace treejet {
 
 class StatFile final : public RowSink {
  public:
-  StatFile(OutputFile file, const std::vector<std::string>& keys);
+  StatFile(OutputFile file, const std::vector<std::string>& keys, const Provenance& made_by);
   void row(const std::vector<double>& values) override;
   void finish() override { file_.sync(); }
   void visit(Archive& state) override { file_.visit(state); }

@@ -4,6 +4,8 @@
 
 #include <iterator>
 
+#include "core/provenance.hpp"
+
 namespace treejet {
 
 template <int D>
@@ -12,8 +14,9 @@ void Trajectory<D>::sample(const Jet<D>& jet) {
   most_ = std::max(most_, beads);
   fmt::memory_buffer frame;
   auto out = std::back_inserter(frame);
-  fmt::format_to(out, "{}\nt = {:.10g} s  beads = {}\n", setting_.maxnum, jet.t * setting_.scales.time,
-                 shown);
+  fmt::format_to(out, "{}\nt = {:.10g} s  beads = {}", setting_.maxnum, jet.t * setting_.scales.time, shown);
+  if (jet.t == 0) fmt::format_to(out, "  program=\"{}\" record=\"{}\"", setting_.made_by, run_record_name);
+  frame.push_back('\n');
   const double cm = setting_.scales.length * setting_.rescale;
   for (Eigen::Index i = 0; i < shown; ++i) {
     Vec<3> r = Vec<3>::Zero();

@@ -2,10 +2,12 @@
 /// traj.xyz: the trajectory for VMD, OVITO and the like, in centimetres (times `print xyz rescale`).
 ///
 /// A frame: the number of lines that follow (`print xyz maxnum`, constant); a comment `t = <s> s  beads =
-/// <real lines>`; lines `C x y z`, oldest bead first, the nozzle last, then padding at the origin. With more
-/// beads than maxnum the ones nearest to the collector are kept.
+/// <real lines>`, in the first frame also `program="..." record="run.json"`; lines `C x y z`, oldest bead
+/// first, the nozzle last, then padding at the origin. With more beads than maxnum the ones nearest to the
+/// collector are kept.
 
 #include <algorithm>
+#include <string>
 
 #include "core/nozzle.hpp"
 #include "core/output_file.hpp"
@@ -23,6 +25,7 @@ class Trajectory final : public Sampling<D> {
     double interval;  ///< scaled
     int maxnum;
     double rescale;
+    std::string made_by;  ///< told in the first frame; VMD reads comments of up to 1023 characters
   };
 
   Trajectory(const Setting& setting, OutputFile file)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/checkpoint.hpp"
+#include "core/output_hdf5.hpp"
 #include "core/output_table.hpp"
 #include "core/output_xyz.hpp"
 #include "core/progress.hpp"
@@ -21,6 +22,23 @@ std::unique_ptr<Recorder<D>> recorder(const Parameters& p, const Nozzle<D>& nozz
                                     print_interval(p) / s.time, p.final_time / s.time});
 }
 
+/// The rows of traj.h5: the time, and what else `print list` asks for.
+std::vector<std::string> after_time(std::vector<std::string> keys) {
+  keys.insert(keys.begin(), "t");
+  return keys;
+}
+
+/// Closes the record when all else is finished.
+template <int D>
+class RecordKeeper final : public Watcher<D> {
+ public:
+  explicit RecordKeeper(const RunRecord::Setting& setting) : record_(setting) {}
+  void finish(const Jet<D>&) override { record_.complete(); }
+
+ private:
+  RunRecord record_;
+};
+
 }  // namespace
 
 template <int D>
@@ -33,26 +51,57 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
     files_.push_back(setting.directory / name);
     return OutputFile(files_.back(), setting.existing);
   };
-  if (!p.print_list.empty() || !p.printstat_list.empty()) {
+  const std::shared_ptr<TrajectoryFile> hdf5 = p.print_hdf5 ? trajectory_file(p, setting) : nullptr;
+  const std::vector<std::string> observables =
+      hdf5 ? reproducible_keys(p.print_list) : std::vector<std::string>();
+  // a run stopped quietly may not have kept the windows of a table
+  const bool table =
+      !p.print_list.empty() && !setting.quiet && (!setting.resumed || setting.resumed->has("rows"));
+  if (table || !p.printstat_list.empty() || !observables.empty()) {
     auto rows = recorder<D>(p, nozzle, collector);
-    // quiet or not, the windows are the same: a run may be resumed either way
-    rows->add(p.print_list, setting.quiet ? nullptr : std::make_unique<TerminalTable>(p.print_list));
+    rows->add(p.print_list, table ? std::make_unique<TerminalTable>(p.print_list) : nullptr);
     if (!p.printstat_list.empty()) {
-      rows->add(p.printstat_list, std::make_unique<StatFile>(file("statdat.dat"), p.printstat_list));
+      rows->add(p.printstat_list,
+                std::make_unique<StatFile>(file("statdat.dat"), p.printstat_list, setting.made_by));
     }
+    if (!observables.empty()) rows->add(after_time(observables), std::make_unique<Hdf5Rows>(hdf5));
     watchers_.push_back({"rows", std::move(rows)});
   }
   if (p.print_xyz) {
     auto trajectory = std::make_unique<Trajectory<D>>(
-        typename Trajectory<D>::Setting{nozzle, s, *p.print_xyz / s.time, p.xyz_maxnum, p.xyz_rescale},
+        typename Trajectory<D>::Setting{nozzle, s, *p.print_xyz / s.time, p.xyz_maxnum, p.xyz_rescale,
+                                        program(setting.made_by)},
         file("traj.xyz"));
     trajectory_ = trajectory.get();
     watchers_.push_back({"traj.xyz", std::move(trajectory)});
   }
+  if (hdf5) {
+    using Frames = Hdf5Trajectory<D>;
+    const typename Frames::Setting frames{nozzle, s, p.nozzle_cross, *p.print_hdf5 / s.time};
+    watchers_.push_back({"traj.h5", std::make_unique<Frames>(frames, hdf5)});
+  }
+  if (!files_.empty()) keep_record(setting);
   if (!setting.quiet) {
     watchers_.push_back(
         {"progress", std::make_unique<Progress<D>>(p.final_time / s.time, s.time, stderr_is_interactive())});
   }
+}
+
+template <int D>
+std::shared_ptr<TrajectoryFile> Outputs<D>::trajectory_file(const Parameters& p,
+                                                            const OutputSetting& setting) {
+  const auto path = setting.directory / "traj.h5";
+  files_.insert(files_.end(), {path, setting.directory / "traj.xdmf"});
+  return std::make_shared<TrajectoryFile>(
+      path, H5md::Content{setting.made_by, reproducible_keys(p.print_list)}, setting.existing);
+}
+
+template <int D>
+void Outputs<D>::keep_record(const OutputSetting& setting) {
+  RunRecord::Setting record{setting.directory, setting.made_by, {}, setting.circumstances, setting.existing};
+  for (const auto& f : files_) record.files.push_back(f.filename().string());
+  watchers_.push_back({run_record_name, std::make_unique<RecordKeeper<D>>(record)});
+  files_.push_back(setting.directory / run_record_name);
 }
 
 template <int D>

@@ -1,6 +1,6 @@
 #pragma once
-/// The watchers that a deck asks for: terminal table, statdat.dat, traj.xyz, progress. What it does not ask
-/// for is not made: no file, no array.
+/// The watchers that a deck asks for: terminal table, statdat.dat, traj.xyz, traj.h5, progress. What it does
+/// not ask for is not made: no file, no array. Beside any files of a run stands the record of it, run.json.
 
 #include <filesystem>
 #include <memory>
@@ -9,6 +9,7 @@
 
 #include "core/output_file.hpp"
 #include "core/parameters.hpp"
+#include "core/run_record.hpp"
 #include "core/watcher.hpp"
 
 namespace treejet {
@@ -18,6 +19,7 @@ class Nozzle;
 class Collector;
 template <int D>
 class Trajectory;
+class TrajectoryFile;
 class State;
 
 struct OutputSetting {
@@ -25,6 +27,9 @@ struct OutputSetting {
   OutputFile::Existing existing = OutputFile::Existing::keep;
   bool quiet = false;
   bool elsewhere = false;  ///< another process makes the outputs of this run
+  Provenance made_by = {};
+  Circumstances circumstances = {};
+  const State* resumed = nullptr;  ///< what to go on from, null for a new run
 };
 
 template <int D>
@@ -42,6 +47,9 @@ class Outputs {
   void visit(State& state);
 
  private:
+  std::shared_ptr<TrajectoryFile> trajectory_file(const Parameters& p, const OutputSetting& setting);
+  void keep_record(const OutputSetting& setting);
+
   struct Named {
     std::string name;  ///< of the part of a checkpoint that tells its state
     std::unique_ptr<Watcher<D>> watcher;

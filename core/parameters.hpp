@@ -71,6 +71,7 @@ struct Parameters : CoulombSetting {
   std::optional<double> print_xyz;  ///< s
   int xyz_maxnum = 100;
   double xyz_rescale = 1;
+  std::optional<double> print_hdf5;  ///< s
 
   std::optional<double> checkpoint;  ///< s of wall-clock time
 };

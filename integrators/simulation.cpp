@@ -7,20 +7,34 @@
 
 namespace treejet {
 
+namespace {
+
+OutputSetting output_setting(OutputSetting outputs, const Checkpoint* resumed) {
+  if (resumed) {
+    outputs.existing = OutputFile::Existing::resume;
+    outputs.resumed = &resumed->state;
+  }
+  return outputs;
+}
+
+}  // namespace
+
 template <int D>
 Simulation<D>::Simulation(const Deck& deck, const Scene& scene, const Setting& setting)
     : deck_(deck),
       jet_(scene.jet),
-      setting_(setting),
+      setting_{output_setting(setting.outputs, setting.resumed), setting.program, setting.wish},
       checkpoints_(setting.outputs.elsewhere
                        ? std::nullopt
-                       : std::optional<Checkpoints>({setting.outputs.directory, setting.outputs.existing})),
+                       : std::optional<Checkpoints>({setting_.outputs.directory, setting_.outputs.existing})),
       stepper_(stepper<D>(chosen_scheme(deck.parameters))),
       control_(step_control(deck.parameters)),
-      outputs_(deck.parameters, scene.nozzle, scene.collector, setting.outputs),
+      outputs_(deck.parameters, scene.nozzle, scene.collector, setting_.outputs),
       march_({scene.jet, scene.motion, *stepper_, *control_, scene.nozzle, scene.collector,
               deck.parameters.events, deck.parameters.tolerance.value_or(0), outputs_.watchers(),
-              [this] { return pause(); }})  {}
+              [this] { return pause(); }}) {
+  if (setting.resumed) visit(setting.resumed->state);
+}
 
 template <int D>
 bool Simulation<D>::finish() {
@@ -38,11 +52,6 @@ bool Simulation<D>::pause() {
   visit(checkpoint.state);
   checkpoints_->write(checkpoint);
   return wish == Wish::stop;
-}
-
-template <int D>
-void Simulation<D>::resume(Checkpoint& checkpoint) {
-  visit(checkpoint.state);
 }
 
 template <int D>

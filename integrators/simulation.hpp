@@ -33,13 +33,11 @@ class Simulation {
     OutputSetting outputs;
     std::string program = {};                                 ///< what checkpoints say made them
     std::function<Wish()> wish = [] { return Wish::go_on; };  ///< asked between any two steps
+    Checkpoint* resumed = nullptr;  ///< of the same deck, to go on from; null for a new run
   };
 
   /// Opens the files; FileError if one exists already or cannot be made, or cannot be gone on with.
   Simulation(const Deck& deck, const Scene& scene, const Setting& setting);
-
-  /// Takes up where the checkpoint was written: the deck is the checkpoint's, the outputs are to be resumed.
-  void resume(Checkpoint& checkpoint);
 
   /// On to the final time. False if stopped before, with a checkpoint.
   bool finish();

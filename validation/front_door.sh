@@ -24,7 +24,7 @@ pvp=$source/examples/pvp/input.dat
 short() { "$treejet" run "$pvp" --threads 1 --set "final time 5.d-4" --set "print time 1.d-4" --set "print xyz 2.5d-4" --set "print xyz maxnum 12" "$@"; }
 
 expect 0 "a run" short --out a
-is "files of a run" "$(ls a | tr '\n' ' ')" "statdat.dat traj.xyz "
+is "files of a run" "$(ls a | tr '\n' ' ')" "run.json statdat.dat traj.xyz "
 is "first line of statdat.dat" "$(head -1 a/statdat.dat)" "# t[s] x[cm] yz[cm] n[1] vn[cm/s] vc[cm/s] curn[statC/s] curc[statC/s] rc[cm] rrr[1] lp[cm] angl[degree]"
 is "rows of statdat.dat" "$(grep -vc '^#' a/statdat.dat)" 6
 is "numbers in each row" "$(grep -v '^#' a/statdat.dat | awk '{print NF}' | sort -u)" 12
@@ -52,7 +52,7 @@ expect 0 "a run with --set" short --out set --set "external potential 20."
 cmp -s before set/statdat.dat && fail "--set changed nothing"
 
 expect 0 "a run without outputs" "$treejet" run "$source/examples/single-bead/input.dat" --quiet --out none --set "final time 1.d-6" --set "print time 1.d-7"
-is "files of a run that asks for statdat.dat only" "$(ls none)" statdat.dat
+is "files of a run that asks for statdat.dat only" "$(ls none | tr '\n' ' ')" "run.json statdat.dat "
 
 sed 's/viscosity/viscosty/' "$pvp" >misspelt.dat
 expect 2 "a misspelt directive" "$treejet" run misspelt.dat --out wrong
@@ -93,7 +93,7 @@ for signal in TERM USR1 INT; do
   grep -q -- --resume err || fail "the message does not tell of --resume"
   expect 0 "going on after $signal" "$treejet" run --resume $signal --quiet --threads 2
   same $signal "a run stopped by $signal"
-  is "files of a run stopped by $signal" "$(ls $signal | tr '\n' ' ')" "statdat.dat traj.xyz "
+  is "files of a run stopped by $signal" "$(ls $signal | tr '\n' ' ')" "run.json statdat.dat traj.xyz "
 done
 expect 4 "resuming a run that has ended" "$treejet" run --resume TERM
 
@@ -128,6 +128,37 @@ expect 3 "a numerical failure" "$treejet" run "$pvp" --out stopped --quiet --set
 grep -q 'bead' err && grep -q 'time' err && grep -q 'likely cause' err || fail "the message names no bead, time or cause: $(cat err)"
 [ "$(grep -vc '^#' stopped/statdat.dat)" -ge 1 ] || fail "rows before a numerical failure were lost"
 grep -qi nan stopped/statdat.dat && fail "statdat.dat holds NaN"
+
+# The HDF5 trajectory, and what else it can become.
+hdf5() { short --quiet --set "print hdf5 1.d-4" "$@"; }
+expect 0 "a run with print hdf5" hdf5 --out h5
+is "files of a run with print hdf5" "$(ls h5 | tr '\n' ' ')" "run.json statdat.dat traj.h5 traj.xdmf traj.xyz "
+expect 0 "the same again on two threads" hdf5 --out h5again --threads 2
+for file in statdat.dat traj.h5 traj.xdmf traj.xyz; do
+  cmp -s h5/$file h5again/$file || fail "$file differs from run to run"
+done
+expect 4 "a run over an HDF5 trajectory" hdf5 --out h5
+for format in xyz extxyz csv vtp; do
+  expect 0 "convert --to $format" "$treejet" convert h5/traj.h5 --to $format --out as-$format
+  expect 4 "convert over an existing file" "$treejet" convert h5/traj.h5 --to $format --out as-$format
+done
+is "lines of the CSV file" "$(wc -l <as-csv | tr -d ' ')" "$(($(grep -c '^C\|^[0-9]* [CX] ' as-extxyz) + 1))"
+is "frames for ParaView" "$(ls as-vtp-frames | wc -l | tr -d ' ')" 6
+expect 2 "convert to an unknown format" "$treejet" convert h5/traj.h5 --to pdb
+expect 4 "convert of a foreign file" "$treejet" convert h5/traj.xyz --to csv
+expect 4 "convert of no file" "$treejet" convert nowhere.h5 --to csv
+expect 75 "a run stopped at once" hdf5 --out later --walltime 0.001
+for file in h5/traj.h5 h5/traj.xdmf h5/statdat.dat h5/traj.xyz h5/run.json as-xyz as-extxyz as-csv as-vtp as-vtp-frames/000003.vtp later/checkpoint; do
+  expect 0 "info $file" "$treejet" info $file
+  head -c $(($(wc -c <$file) * 2 / 3)) $file >cut
+  expect 4 "info of two thirds of $file" "$treejet" info cut
+  grep -Eq 'cut: (cut short|cannot be read: truncated)' err || fail "the message does not tell that $file is cut short: $(cat err)"
+done
+for file in h5/traj.h5 h5/statdat.dat h5/run.json; do
+  "$treejet" info $file | grep -q 'elastic modulus' || fail "$file does not tell the deck"
+  "$treejet" info $file | grep -q 'print hdf5 1.d-4' || fail "$file does not tell the overrides"
+done
+expect 4 "info of a foreign file" "$treejet" info "$source/README.md"
 
 expect 0 "check" "$treejet" check "$pvp"
 grep -q 'surface tension' out || fail "check does not tell what is composed"

@@ -29,6 +29,7 @@ final time 3.d-5
 print time 2.d-6
 printstat list t x yz n f l vc curn curc rc lp angl
 print xyz 2.d-6
+print hdf5 4.d-6
 print xyz maxnum 1200
 inserting yes
 removing yes
@@ -57,7 +58,7 @@ END
   for workers; do
     on "${workers%x*}" "$treejet" run deck.dat --quiet --threads "${workers#*x}" --out many --force 2>err ||
       fail "$name on $workers: $(cat err)"
-    for file in statdat.dat traj.xyz; do
+    for file in statdat.dat traj.xyz traj.h5 traj.xdmf; do
       cmp -s one/$file many/$file || fail "$name: $file differs on $workers (ranks x threads)"
     done
   done

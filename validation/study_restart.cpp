@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "core/error.hpp"
+#include "core/file_info.hpp"
 #include "validation/studies.hpp"
 
 namespace treejet {
@@ -28,24 +29,27 @@ struct Scene {
 
 /// Two rates, a straight jet, a stiff scheme, a tree: each of a few tenths of a second, with insertion and
 /// removal.
-const Scene scenes[] = {
-    {"two rates",
-     "pvp",
-     {"final time 8.d-2", "print time 1.d-4", "print xyz 2.d-4", "collector distance 1."}},
-    {"straight jet",
-     "straight-jet",
-     {"final time 1.", "print time 1.d-3", "print xyz 1.d-2", "collector distance 5.",
-      "printstat list t x st vx n rc curc vc mfc"}},
-    {"stiff",
-     "pvp",
-     {"final time 6.d-2", "print time 1.d-4", "print xyz 1.d-4", "elastic modulus 5.d7",
-      "collector distance 0.1"}},
-    {"tree",
-     "pvp",
-     {"final time 2.d-3", "print time 1.d-5", "print xyz 1.d-4", "points 1500", "initial length 30.",
-      "collector distance 30.0001", "tolerance 1.d-3", "coulomb auto", "coulomb accuracy 1.d-2"}}};
+const Scene scenes[] = {{"two rates",
+                         "pvp",
+                         {"final time 8.d-2", "print time 1.d-4", "print xyz 2.d-4", "print hdf5 2.d-4",
+                          "collector distance 1."}},
+                        {"straight jet",
+                         "straight-jet",
+                         {"final time 1.", "print time 1.d-3", "print xyz 1.d-2", "print hdf5 1.d-2",
+                          "collector distance 5.", "printstat list t x st vx n rc curc vc mfc"}},
+                        {"stiff",
+                         "pvp",
+                         {"final time 6.d-2", "print time 1.d-4", "print xyz 1.d-4", "print hdf5 1.d-4",
+                          "elastic modulus 5.d7", "collector distance 0.1"}},
+                        {"tree",
+                         "pvp",
+                         {"final time 2.d-3", "print time 1.d-5", "print xyz 1.d-4", "print hdf5 1.d-4",
+                          "points 1500", "initial length 30.", "collector distance 30.0001",
+                          "tolerance 1.d-3", "coulomb auto", "coulomb accuracy 1.d-2"}}};
 
-const char* const files[] = {"statdat.dat", "traj.xyz"};
+/// Those of lines grow at their ends; traj.h5 gets its final form when all is done.
+const char* const files[] = {"statdat.dat", "traj.xyz", "traj.h5", "traj.xdmf"};
+constexpr std::size_t files_of_lines = 2;
 
 /// Empty if there is no such file.
 std::string contents(const fs::path& file) {
@@ -88,9 +92,10 @@ int ended(pid_t child, double seconds) {
 
 struct Tally {
   std::int64_t kills = 0, unresumable = 0, cut_records = 0, completed = 0;
-  std::int64_t astray = 0;     ///< files after a kill that are not a beginning of the whole run's
-  std::int64_t differing = 0;  ///< files of a completed run that differ from the whole run's
-  std::int64_t failures = 0;   ///< exits by itself with anything but 0
+  std::int64_t astray = 0;      ///< files after a kill that are not a beginning of the whole run's
+  std::int64_t unreadable = 0;  ///< traj.h5 or traj.xdmf after a kill
+  std::int64_t differing = 0;   ///< files of a completed run that differ from the whole run's
+  std::int64_t failures = 0;    ///< exits by itself with anything but 0
 };
 
 class Trial {
@@ -107,14 +112,15 @@ class Trial {
     for (const char* file : files) whole_.push_back(contents(whole / file));
   }
 
-  /// One life after the other, until a run is complete.
-  void run(Tally& tally, std::mt19937& random) {
+  /// One life after the other, until a run is complete; the last life, after so many kills, is left alone.
+  void run(Tally& tally, std::mt19937& random, std::int64_t most_kills) {
     fs::remove_all(directory_);
     while (true) {
       const bool resumable =
           fs::exists(directory_ / "checkpoint") || fs::exists(directory_ / "checkpoint.old");
-      const std::string threads = std::to_string(1 + random() % 3);
-      const double life = std::uniform_real_distribution(0.0, 0.7 * seconds_)(random);
+      const std::string threads = std::to_string(1 + random() % 2);
+      const double life =
+          tally.kills < most_kills ? std::uniform_real_distribution(0.0, 0.7 * seconds_)(random) : 600;
       const int code =
           ended(resumable ? started({"--resume", directory_, "--threads", threads})
                           : started(with({"--out", directory_, "--force", "--threads", threads})),
@@ -136,12 +142,22 @@ class Trial {
     return further;
   }
 
+  /// To the last frame; one that is not there yet counts as such.
+  static bool readable(const fs::path& file) try {
+    std::error_code error;
+    return !fs::exists(file, error) || !file_info(file).empty();
+  } catch (const Error&) {
+    return false;
+  }
+
   void look(Tally& tally) const {
-    for (std::size_t k = 0; k < whole_.size(); ++k) {
+    for (std::size_t k = 0; k < files_of_lines; ++k) {
       const std::string found = contents(directory_ / files[k]);
       tally.astray += !whole_[k].starts_with(found);
       tally.cut_records += !found.empty() && found.back() != '\n';
     }
+    for (std::size_t k = files_of_lines; k < whole_.size(); ++k)
+      tally.unreadable += !readable(directory_ / files[k]);
   }
 
   fs::path directory_;
@@ -154,25 +170,28 @@ class Trial {
 void study_restart(Report& report) {
   const int wanted = report.quick ? 4 : 60;  // kills of a scene
   auto table =
-      report.table("restart", "Runs killed (SIGKILL) at random moments and resumed on 1 to 3 threads",
+      report.table("restart", "Runs killed (SIGKILL) at random moments and resumed on 1 or 2 threads",
                    {"scene", "kills", "before a checkpoint", "cut records", "completed", "differing files"});
   std::mt19937 random(std::random_device{}());
   Tally all;
   for (const Scene& scene : scenes) {
     Trial trial(scene, report.directory() / "restart");
     Tally tally;
-    while (tally.kills < wanted) trial.run(tally, random);
+    while (tally.kills < wanted) trial.run(tally, random, wanted);
     table.row({std::string(scene.name), tally.kills, tally.unresumable, tally.cut_records, tally.completed,
                tally.differing});
     all.kills += tally.kills;
     all.astray += tally.astray;
+    all.unreadable += tally.unreadable;
     all.differing += tally.differing;
     all.failures += tally.failures;
   }
-  if (all.astray + all.differing + all.failures == 0) fs::remove_all(report.directory() / "restart");
+  if (all.astray + all.unreadable + all.differing + all.failures == 0)
+    fs::remove_all(report.directory() / "restart");
   report.check("kills at random moments", double(all.kills), report.quick ? 16 : 200, 1e9);
   report.check("files that after a kill are no beginning of an uninterrupted run's", double(all.astray), 0,
                0);
+  report.check("trajectories that after a kill cannot be read", double(all.unreadable), 0, 0);
   report.check("files of resumed runs that differ from an uninterrupted run's", double(all.differing), 0, 0);
   report.check("runs that fail by themselves", double(all.failures), 0, 0);
 }

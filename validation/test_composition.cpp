@@ -128,11 +128,15 @@ TEST_CASE("No output is made that the deck does not ask for") {
 
   Parameters table = p;
   table.printstat_list = {"t", "x"};
-  CHECK(made(table) == std::pair{std::size_t(1), Names{"statdat.dat"}});
+  CHECK(made(table) == std::pair{std::size_t(2), Names{"run.json", "statdat.dat"}});
 
   Parameters trajectory = p;
   trajectory.print_xyz = 1e-4;
-  CHECK(made(trajectory) == std::pair{std::size_t(1), Names{"traj.xyz"}});
+  CHECK(made(trajectory) == std::pair{std::size_t(2), Names{"run.json", "traj.xyz"}});
+
+  Parameters hdf5 = p;
+  hdf5.print_hdf5 = 1e-4;
+  CHECK(made(hdf5) == std::pair{std::size_t(2), Names{"run.json", "traj.h5"}});
 
   Parameters terminal = p;  // a table for the terminal, of which --quiet wants nothing
   terminal.print_list = {"t"};

@@ -54,10 +54,9 @@ template <int D>
 bool march(const Deck& deck, const fs::path& directory, std::function<Wish()> wish, Checkpoint* from,
            int threads) {
   Scene<D> scene = compose<D>(deck.parameters, {threads});
-  const auto existing = from ? OutputFile::Existing::resume : OutputFile::Existing::keep;
-  Simulation<D> simulation(deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
-                           {{directory, existing, true}, this_program, std::move(wish)});
-  if (from) simulation.resume(*from);
+  Simulation<D> simulation(
+      deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
+      {{directory, OutputFile::Existing::keep, true}, this_program, std::move(wish), from});
   const bool arrived = simulation.finish();
   if (deck.parameters.coulomb != CoulombSum::direct)
     CHECK_FALSE(scene.motion->coulomb()->solver()->report().direct);
@@ -93,6 +92,7 @@ Case output_often(const char* example, double end, std::vector<std::string> over
   overrides.push_back(fmt::format("final time {}", end));
   overrides.push_back(fmt::format("print time {}", end / 67));
   overrides.push_back(fmt::format("print xyz {}", end / 31));
+  overrides.push_back(fmt::format("print hdf5 {}", end / 23));
   overrides.push_back(fmt::format("printstat list {}", all_keys));
   return {example, overrides};
 }
@@ -102,10 +102,10 @@ Case output_often(const char* example, double end, std::vector<std::string> over
 std::vector<Case> cases() {
   const std::string near = "collector distance 0.05";
   const std::vector<std::string> long_jet = {"points 1500", "initial length 30.",
-                                             "collector distance 30.0001", "coulomb auto",
+                                             "collector distance 30.0001", "coulomb tree",
                                              "coulomb accuracy 1.d-2"};
   auto fixed_tree = long_jet, two_rate_tree = long_jet;
-  fixed_tree.insert(fixed_tree.end(), {"coulomb tree space", "integrator 2", "timestep 5.d-8"});
+  fixed_tree.insert(fixed_tree.end(), {"coulomb sorting space", "integrator 2", "timestep 5.d-8"});
   two_rate_tree.insert(two_rate_tree.end(), {"tolerance 1.d-3"});
   return {output_often("pvp", 8e-3, {"collector distance 0.5"}),
           output_often("pvp", 2e-3, {near, "integrator dopri5", "multirate no"}),
@@ -138,15 +138,15 @@ TEST_CASE("A run stopped and resumed at any steps leaves the same bytes as one l
     bool arrived = run(deck, parts.path, after(stop(random)));
     while (!arrived) arrived = resume(parts.path, after(1 + stop(random)), 1 + ++stops % 3);
     CHECK(stops > 3);
-    fmt::print("{} {} {}\n", c.overrides[2], steps, stops);
-    for (const char* file : {"statdat.dat", "traj.xyz"})
+    for (const char* file : {"statdat.dat", "traj.xyz", "traj.h5", "traj.xdmf"})
       CHECK(contents(whole.path / file) == contents(parts.path / file));
     CHECK_FALSE(fs::exists(parts.path / "checkpoint"));
   }
 }
 
 TEST_CASE("Saving a checkpoint between all steps changes no bit and keeps the last two") {
-  const Deck deck = deck_of({"pvp", {"final time 2.d-4", "print time 3.d-5", "print xyz 7.d-5"}});
+  const Deck deck =
+      deck_of({"pvp", {"final time 2.d-4", "print time 3.d-5", "print xyz 7.d-5", "print hdf5 5.d-5"}});
   const Place plain, saving;
   REQUIRE(run(deck, plain.path, never));
   int saved = 0;
@@ -159,9 +159,9 @@ TEST_CASE("Saving a checkpoint between all steps changes no bit and keeps the la
     return ++saved, Wish::save;
   }));
   CHECK(saved > 20);
-  for (const char* file : {"statdat.dat", "traj.xyz"})
+  for (const char* file : {"statdat.dat", "traj.xyz", "traj.h5", "traj.xdmf"})
     CHECK(contents(plain.path / file) == contents(saving.path / file));
-  CHECK(std::distance(fs::directory_iterator(saving.path), {}) == 2);
+  CHECK(std::distance(fs::directory_iterator(saving.path), {}) == 5);  // these and run.json
 }
 
 TEST_CASE("A checkpoint that is not sound is refused, and the older one gives the same bytes") {
