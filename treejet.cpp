@@ -71,7 +71,8 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* ch
                              a.quiet,
                              !ranks.first(),
                              provenance(deck, vector_path()),
-                             {ranks.size(), each.count}},
+                             {ranks.size(), each.count},
+                             scene.force_error()},
                             version_text(),
                             wish,
                             checkpoint});

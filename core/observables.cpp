@@ -89,6 +89,8 @@ void add_window(Entries<D>& o) {
   o["cpu"] = [](auto& v) { return v.timing.interval; };
   o["cpue"] = [](auto& v) { return v.timing.elapsed; };
   o["cpur"] = [](auto& v) { return v.timing.left; };
+  o["ferr"] = [](auto& v) { return v.force_error ? v.force_error->l2 : 0; };
+  o["ferrmax"] = [](auto& v) { return v.force_error ? v.force_error->max : 0; };
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string_view>
 
+#include "core/force_error.hpp"
 #include "core/scales.hpp"
 #include "core/statistics.hpp"
 
@@ -23,6 +24,7 @@ struct View {
   double nozzle_radius, collector_distance;  ///< cm
   double fed = 0, landed = 0;                ///< scaled charge that passed nozzle and collector in the window
   Timing timing = {};
+  const ForceError* force_error = nullptr;  ///< null: exact forces
 };
 
 template <int D>

@@ -33,6 +33,15 @@ void StatFile::row(const std::vector<double>& values) {
   file_.write(line + "\n");
 }
 
+void StatFile::remark(const std::string& text) {
+  file_.write(fmt::format("# {}\n", text));
+}
+
+void TerminalTable::remark(const std::string& text) {
+  if (stderr_is_interactive()) fmt::print(stderr, "{}", clear_line);
+  fmt::print("# {}\n", text);
+}
+
 void TerminalTable::row(const std::vector<double>& values) {
   constexpr int rows_a_header = 50;
   std::string text;

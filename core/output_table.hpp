@@ -2,7 +2,8 @@
 /// The two tables of observables.
 ///
 /// statdat.dat: a first line `# key[unit] key[unit] ...`, lines `## ...` that tell what made the file, then
-/// one row a print time, numbers with 17 significant digits separated by blanks. The terminal table carries
+/// one row a print time, numbers with 17 significant digits separated by blanks. Remarks on the rows that
+/// follow are lines that begin with `# `. The terminal table carries
 /// the same rows with fewer digits under a header of its own.
 
 #include <string>
@@ -18,6 +19,7 @@ class StatFile final : public RowSink {
  public:
   StatFile(OutputFile file, const std::vector<std::string>& keys, const Provenance& made_by);
   void row(const std::vector<double>& values) override;
+  void remark(const std::string& text) override;
   void finish() override { file_.sync(); }
   void visit(Archive& state) override { file_.visit(state); }
 
@@ -29,6 +31,7 @@ class TerminalTable final : public RowSink {
  public:
   explicit TerminalTable(std::vector<std::string> keys) : keys_(std::move(keys)) {}
   void row(const std::vector<double>& values) override;
+  void remark(const std::string& text) override;
 
  private:
   std::vector<std::string> keys_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/accuracy_warning.hpp"
 #include "core/checkpoint.hpp"
 #include "core/output_hdf5.hpp"
 #include "core/output_table.hpp"
@@ -15,11 +16,11 @@ namespace {
 
 template <int D>
 std::unique_ptr<Recorder<D>> recorder(const Parameters& p, const Nozzle<D>& nozzle,
-                                      const Collector& collector) {
+                                      const Collector& collector, const ForceError* force_error) {
   const Scales s = scales(p);
   return std::make_unique<Recorder<D>>(
       typename Recorder<D>::Setting{nozzle, collector, s, p.nozzle_cross, p.collector_distance,
-                                    print_interval(p) / s.time, p.final_time / s.time});
+                                    print_interval(p) / s.time, p.final_time / s.time, force_error});
 }
 
 /// The rows of traj.h5: the time, and what else `print list` asks for.
@@ -44,7 +45,7 @@ class RecordKeeper final : public Watcher<D> {
 template <int D>
 Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
                     const OutputSetting& setting)
-    : maxnum_(p.xyz_maxnum) {
+    : maxnum_(p.xyz_maxnum), force_error_(setting.force_error) {
   if (setting.elsewhere) return;
   const Scales s = scales(p);
   const auto file = [&](const char* name) {
@@ -58,7 +59,7 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
   const bool table =
       !p.print_list.empty() && !setting.quiet && (!setting.resumed || setting.resumed->has("rows"));
   if (table || !p.printstat_list.empty() || !observables.empty()) {
-    auto rows = recorder<D>(p, nozzle, collector);
+    auto rows = recorder<D>(p, nozzle, collector, setting.force_error);
     rows->add(p.print_list, table ? std::make_unique<TerminalTable>(p.print_list) : nullptr);
     if (!p.printstat_list.empty()) {
       rows->add(p.printstat_list,
@@ -81,6 +82,8 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
     watchers_.push_back({"traj.h5", std::make_unique<Frames>(frames, hdf5)});
   }
   if (!files_.empty()) keep_record(setting);
+  if (force_error_)
+    watchers_.push_back({"accuracy", std::make_unique<AccuracyWarning<D>>(*force_error_, s.time)});
   if (!setting.quiet) {
     watchers_.push_back(
         {"progress", std::make_unique<Progress<D>>(p.final_time / s.time, s.time, stderr_is_interactive())});
@@ -126,6 +129,7 @@ std::vector<std::string> Outputs<D>::summary() const {
         fmt::format("traj.xyz leaves out the beads nearest to the nozzle: {} points, print xyz maxnum {}",
                     trajectory_->most_beads(), maxnum_));
   }
+  if (force_error_) lines.push_back(summary_of(*force_error_));
   return lines;
 }
 

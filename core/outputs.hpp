@@ -1,6 +1,7 @@
 #pragma once
-/// The watchers that a deck asks for: terminal table, statdat.dat, traj.xyz, traj.h5, progress. What it does
-/// not ask for is not made: no file, no array. Beside any files of a run stands the record of it, run.json.
+/// The watchers that a deck asks for: terminal table, statdat.dat, traj.xyz, traj.h5, progress, and a warning
+/// should approximate forces miss their accuracy. What it does not ask for is not made: no file, no array.
+/// Beside any files of a run stands the record of it, run.json.
 
 #include <filesystem>
 #include <memory>
@@ -17,6 +18,7 @@ namespace treejet {
 template <int D>
 class Nozzle;
 class Collector;
+struct ForceError;
 template <int D>
 class Trajectory;
 class TrajectoryFile;
@@ -29,7 +31,8 @@ struct OutputSetting {
   bool elsewhere = false;  ///< another process makes the outputs of this run
   Provenance made_by = {};
   Circumstances circumstances = {};
-  const State* resumed = nullptr;  ///< what to go on from, null for a new run
+  const ForceError* force_error = nullptr;  ///< null: exact forces
+  const State* resumed = nullptr;           ///< what to go on from, null for a new run
 };
 
 template <int D>
@@ -59,6 +62,7 @@ class Outputs {
   std::vector<std::filesystem::path> files_;
   const Trajectory<D>* trajectory_ = nullptr;
   int maxnum_;
+  const ForceError* force_error_;
 };
 
 }  // namespace treejet

@@ -1,5 +1,7 @@
 #include "core/recorder.hpp"
 
+#include <fmt/format.h>
+
 namespace treejet {
 
 template <int D>
@@ -42,7 +44,7 @@ void Recorder<D>::visit(Archive& state) {
   const auto now = Clock::now();
   auto elapsed = now - started_, in_window = now - last_row_;
   Sampling<D>::visit(state);
-  state(statistics_, fed_, landed_, elapsed, in_window);
+  state(statistics_, fed_, landed_, remarked_, elapsed, in_window);
   started_ = now - elapsed;
   last_row_ = now - in_window;
   for (auto& list : lists_)
@@ -57,6 +59,18 @@ Timing Recorder<D>::timing(double t) const {
   return {interval, std::chrono::duration<double>(now - started_).count(), interval * rows_left};
 }
 
+/// The rows that follow say how their forces are computed whenever that has changed.
+template <int D>
+void Recorder<D>::remark_on_forces(const Jet<D>& jet) {
+  const ForceError& forces = *setting_.force_error;
+  if (forces.method == remarked_) return;
+  remarked_ = forces.method;
+  const std::string remark =
+      fmt::format("t = {:.6g} s, {} beads: {}", jet.t * setting_.scales.time, jet.size(), forces.method);
+  for (auto& list : lists_)
+    if (list.sink) list.sink->remark(remark);
+}
+
 template <int D>
 void Recorder<D>::sample(const Jet<D>& jet) {
   const double fed = statistics_.charge_fed(jet), landed = statistics_.charge_landed(jet);
@@ -68,7 +82,9 @@ void Recorder<D>::sample(const Jet<D>& jet) {
                      setting_.collector_distance,
                      fed - fed_,
                      landed - landed_,
-                     timing(jet.t)};
+                     timing(jet.t),
+                     setting_.force_error};
+  if (setting_.force_error) remark_on_forces(jet);
   std::vector<double> values;
   for (auto& list : lists_) {
     if (!list.sink) continue;

@@ -11,13 +11,14 @@
 
 namespace treejet {
 
-/// Takes the rows of a list of keys.
+/// Takes the rows of a list of keys, and remarks on the rows that follow.
 class RowSink {
  public:
   virtual ~RowSink() = default;
   virtual void row(const std::vector<double>& values) = 0;
   virtual void finish() {}
   virtual void visit(Archive&) {}
+  virtual void remark(const std::string&) {}
 };
 
 template <int D>
@@ -29,6 +30,7 @@ class Recorder final : public Sampling<D> {
     Scales scales;
     double nozzle_radius, collector_distance;  ///< cm
     double interval, end;                      ///< scaled
+    const ForceError* force_error = nullptr;   ///< null: exact forces
   };
 
   explicit Recorder(const Setting& setting);
@@ -56,11 +58,13 @@ class Recorder final : public Sampling<D> {
   using Clock = std::chrono::steady_clock;
 
   Timing timing(double t) const;
+  void remark_on_forces(const Jet<D>& jet);
 
   Setting setting_;
   Statistics<D> statistics_;
   std::vector<List> lists_;
   double fed_ = 0, landed_ = 0;
+  std::string remarked_;  ///< how the forces of the last row were computed
   Clock::time_point started_, last_row_;
 };
 

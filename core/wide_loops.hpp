@@ -1,6 +1,6 @@
 #pragma once
-/// Marks a function whose loops over beads are compiled for several instruction sets; the widest one that runs
-/// here is taken when the program is loaded.
+/// Marks a function whose loops over beads are compiled for several instruction sets; the widest one that
+/// runs here is taken when the program is loaded.
 ///
 /// The iterations of such a loop are independent and products and sums are rounded one by one (CMakeLists.txt
 /// forbids contraction), so the results have the same bits on every processor. The resolver behind it runs

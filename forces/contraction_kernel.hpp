@@ -1,6 +1,6 @@
 #pragma once
 /// T_b += sum_a S_a D_{a+b} for 1 <= |b|, |a| + |b| <= p: nearly all of the work of M2L and L2L
-/// (multipole.hpp).
+/// (multipole.hpp). For the potential b = 0 is wanted as well; S then goes up to degree p.
 ///
 /// One row of T, b = (0..m, bj, bc) with m = p - bj - bc, stays in registers while all rows of S pass by. Row
 /// m is the same code for every order and every (bj, bc), only its place in D differs; it is unrolled by the
@@ -53,17 +53,17 @@ struct Contraction {
   }
 
   template <int p>
-  static void order(const Pack* S, const Pack* D, Pack* T) {
-    row<p, 1>(S, D, T + at(0, 0, 0));
+  static void order(const Pack* S, const Pack* D, Pack* T, bool potential) {
+    (potential ? row<p, 0> : row<p, 1>)(S, D, T + at(0, 0, 0));
     rows<p - 1, 1>(S, D, T, p);
   }
 
-  static void run(int p, const Pack* S, const Pack* D, Pack* T) {
-    using Order = void (*)(const Pack*, const Pack*, Pack*);
+  static void run(int p, const Pack* S, const Pack* D, Pack* T, bool potential) {
+    using Order = void (*)(const Pack*, const Pack*, Pack*, bool);
     static constexpr Order orders[] = {order<2>,  order<3>,  order<4>, order<5>,  order<6>,
                                        order<7>,  order<8>,  order<9>, order<10>, order<11>,
                                        order<12>, order<13>, order<14>};
-    orders[p - 2](S, D, T);
+    orders[p - 2](S, D, T, potential);
   }
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 /// The Coulomb field of point charges at the points themselves:
 ///
-///     E_i = sum_{j != i} q_j (r_i - r_j) / |r_i - r_j|^3 .
+///     E_i = sum_{j != i} q_j (r_i - r_j) / |r_i - r_j|^3 ,
+///
+/// in three dimensions also their potential, phi_i = sum_{j != i} q_j / |r_i - r_j|.
 ///
 /// A library of its own: points and charges in, field out; it knows nothing of jets.
 /// Invariants: coordinates are D separate contiguous arrays of n doubles; a row of the field depends on the
@@ -38,6 +40,10 @@ void coulomb_direct(const PointCharges<D>& points, Rows rows, const FieldArrays<
 /// The same by a path named by the caller.
 template <int D>
 void coulomb_direct(const PointCharges<D>& points, Rows rows, const FieldArrays<D>& field, VectorPath path);
+
+/// Field and potential by a path named by the caller.
+void coulomb_direct_with_potential(const PointCharges<3>& points, Rows rows, const FieldArrays<3>& field,
+                                   double* potential, VectorPath path);
 
 /// The whole field of at most few_points charges, each pair worked out once by Newton's third law: a third
 /// faster, but rows are no longer independent of each other, so that one worker has to do all of it.

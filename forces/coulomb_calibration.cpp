@@ -9,7 +9,6 @@ namespace treejet {
 
 namespace {
 
-constexpr int sampled_points = 1024;
 constexpr double margin = 1.25;
 /// Below this accuracy a near field in single precision is not tried.
 constexpr double finest_single = 3e-5;
@@ -22,8 +21,7 @@ int usual_order(double accuracy) {
   return std::clamp(static_cast<int>(std::lround(-1.35 * std::log10(accuracy))), 3, 13);
 }
 
-/// The mean of E^2 over the points, the largest hundredth taken as nothing: in a cloud a few close pairs may
-/// hold most of it, and the promise is to hold for a sample without them as well.
+/// The mean of E^2 over the points, the largest hundredth taken as nothing (SampledError).
 double typical_square(const std::vector<double> (&E)[3]) {
   std::vector<double> squares;
   for (std::size_t i = 0; i < E[0].size(); ++i) {
@@ -36,6 +34,17 @@ double typical_square(const std::vector<double> (&E)[3]) {
   return std::accumulate(squares.begin(), typical, 0.0) / static_cast<double>(squares.size());
 }
 
+/// `count` of all leaves, spread over the tree.
+std::vector<int> sample_leaves(int all, int count) {
+  std::vector<int> sample;
+  for (int k = 0; k < count; ++k) {
+    const double jitter = 0.618033988749895 * k;  // golden ratio: no stride of the jet can be in step with it
+    const int leaf = static_cast<int>((k + jitter - static_cast<int>(jitter)) * all / count);
+    if (sample.empty() || sample.back() != leaf) sample.push_back(leaf);
+  }
+  return sample;
+}
+
 CoulombChoice direct_because(const std::string& reason) {
   CoulombChoice choice;
   choice.reason = reason;
@@ -45,7 +54,7 @@ CoulombChoice direct_because(const std::string& reason) {
 }  // namespace
 
 CoulombSample::CoulombSample(int points, CoulombTree& tree, Threads threads)
-    : n_(points), leaves_(tree.sample_leaves(sampled_points / tree.shape().leaf)) {
+    : n_(points), leaves_(sample_leaves(tree.leaves(), sampled_points / tree.shape().leaf)) {
   for (auto& values : direct_) values.assign(static_cast<std::size_t>(n_), 0.0);
   for (auto& values : tried_) values.assign(static_cast<std::size_t>(n_), 0.0);
   const FieldArrays<3> field = {direct_[0].data(), direct_[1].data(), direct_[2].data()};
@@ -57,33 +66,39 @@ CoulombSample::CoulombSample(int points, CoulombTree& tree, Threads threads)
   tree.evaluate_directly(leaves_, field, threads);
 }
 
-double CoulombSample::error(CoulombTree& tree, Threads threads) {
+SampledError CoulombSample::error(CoulombTree& tree, Threads threads) {
   tree.evaluate(leaves_, {0, n_}, {tried_[0].data(), tried_[1].data(), tried_[2].data()}, threads);
-  double sum = 0, sum_squares = 0, count = 0;
+  double sum = 0, sum_squares = 0, count = 0, largest = 0;
   for (const auto& points : points_of_leaf_) {
     double square = 0;
     for (int k : points) {
       const auto i = static_cast<std::size_t>(k);
       double difference2 = 0;
       for (std::size_t e = 0; e < 3; ++e) difference2 += std::pow(tried_[e][i] - direct_[e][i], 2);
-      if (std::isfinite(difference2)) square += difference2 / static_cast<double>(points.size());
+      if (!std::isfinite(difference2)) continue;
+      square += difference2 / static_cast<double>(points.size());
+      largest = std::max(largest, difference2);
     }
     sum += square;
     sum_squares += square * square;
     ++count;
   }
-  if (mean_square_ == 0) return 0;
+  if (mean_square_ == 0) return {};
   const double mean = sum / count;
   const double spread = std::sqrt(std::max(0.0, sum_squares / count - mean * mean) / count);
-  return margin * std::sqrt((mean + 2 * spread) / mean_square_);
+  return {std::sqrt(mean / mean_square_), std::sqrt(largest / mean_square_),
+          margin * std::sqrt((mean + 2 * spread) / mean_square_)};
 }
 
 double price(const Interactions& work, const TreeShape& shape, int points, VectorPath path) {
   // an M2L of order 2, 3, ..., 14; measured, and so is the rest
   constexpr double wide[] = {20, 30, 40, 57, 80, 115, 160, 225, 320, 410, 520, 680, 860};
-  constexpr double narrow[] = {15, 20, 30, 43, 70, 97, 125, 185, 256, 330, 416, 530, 672};
+  constexpr double narrow[] = {13, 21, 30, 46, 70, 95, 131, 175, 240, 323, 410, 530, 690};
+  constexpr double plain[] = {13, 22, 31, 50, 80, 119, 180, 263, 414, 632, 813, 1066, 1618};
   const double p = shape.order, n = points;
-  const double expansion = (path == VectorPath::avx512 ? wide : narrow)[shape.order - 2];
+  const double expansion = (path == VectorPath::avx512 ? wide
+                            : path == VectorPath::avx2 ? narrow
+                                                       : plain)[shape.order - 2];
   const double point = 40 + 1.25 * p * p;  // P2M, L2P, copies
   const double leaf = 2 * p * p * p;       // M2M and L2L
   const double sort = shape.block == 0 ? 0 : 10 + 150.0 / shape.block;
@@ -92,10 +107,11 @@ double price(const Interactions& work, const TreeShape& shape, int points, Vecto
          (point + sort) * n + leaf * n / shape.leaf;
 }
 
+/// Fits what `treejet-validate coulomb` measures on whipping jets: 350, 1300, 1800, 3600 points at accuracy
+/// 1e-3, 1e-5, 1e-7, 1e-9 with AVX-512. Coils cross over earlier; then the tree is worth little as well.
 int direct_below(double accuracy, VectorPath path) {
   const double digits = std::clamp(-std::log10(accuracy), 2.0, 12.0);
-  const double wide = 250 * digits * digits / 2;
-  return static_cast<int>(path == VectorPath::avx512 ? wide : 0.7 * wide);
+  return static_cast<int>((path == VectorPath::avx512 ? 40 : 30) * digits * digits);
 }
 
 namespace {
@@ -108,9 +124,7 @@ TreeShape cheapest_order(const PointCharges<3>& points, const CoulombRequest& re
   for (int block : {0, 16, 4, 1}) {
     if (request.space && *request.space != (block > 0)) continue;
     shape.block = block;
-    TreeShape cheap = shape;
-    cheap.order = 2;
-    tree.arrange(points, cheap, threads);
+    tree.place(points, shape, threads);
     const double work = price(tree.count(), shape, points.n, path);
     if (work < least) {
       least = work;
@@ -127,7 +141,6 @@ struct Search {
   VectorPath path;
   CoulombTree& tree;
   Threads threads;
-  double least = std::numeric_limits<double>::infinity();
   CoulombChoice best{};
 
   /// The widest opening that is accurate enough at each of these orders, from a bit wider than `widest` down.
@@ -141,19 +154,13 @@ struct Search {
   void try_openings(int order, CoulombSample& sample, double widest) {
     for (double opening = request.opening.value_or(widest); opening > narrowest_opening; opening *= step) {
       tree.reshape(order, opening, threads);
-      const double error = sample.error(tree, threads);
-      ++best.measurements;
+      const SampledError error = sample.error(tree, threads);
       const bool pinned = request.opening.has_value();
-      if (error <= request.accuracy || (pinned && request.order)) {
+      if (error.bound <= request.accuracy || (pinned && request.order)) {
         const Interactions counted = tree.count();
         if (counted.expansions == 0 && !pinned) return;  // all pairs are near: a direct sum in disguise
         const double work = price(counted, tree.shape(), points.n, path);
-        if (work < least) {
-          least = work;
-          best.direct = false;
-          best.shape = tree.shape();
-          best.expected_error = error;
-        }
+        if (work < best.work) best = {false, {}, tree.shape(), error, work};
         return;
       }
       if (pinned) return;
@@ -198,12 +205,13 @@ CoulombChoice coulomb_choice(const PointCharges<3>& points, const CoulombRequest
   CoulombChoice& choice = search.best;
   if (choice.direct) {
     choice.reason = "no tree is as accurate as asked for";
-  } else if (automatic && search.least > 0.9 * static_cast<double>(points.n) * points.n) {
+  } else if (automatic && search.best.work > 0.9 * static_cast<double>(points.n) * points.n) {
     choice.direct = true;
+    choice.error = {};
     choice.reason = "no tree of this accuracy would be faster";
   } else {
-    choice.reason = choice.expected_error <= request.accuracy ? "cheapest accurate shape"
-                                                              : "pinned: less accurate than asked for";
+    choice.reason = choice.error.bound <= request.accuracy ? "cheapest accurate shape"
+                                                           : "pinned: less accurate than asked for";
     tree.arrange(points, choice.shape, threads);
   }
   return choice;

@@ -13,9 +13,13 @@
 /// Prices are in units of one direct pair of the same vector path, so they depend little on the machine's
 /// clock.
 
+#include <limits>
+
 #include "forces/coulomb_solver.hpp"
 
 namespace treejet {
+
+constexpr int sampled_points = 1024;
 
 /// Sampled leaves and the direct field at their points.
 class CoulombSample {
@@ -23,9 +27,8 @@ class CoulombSample {
   /// `tree` holds the points, in any shape.
   CoulombSample(int points, CoulombTree& tree, Threads threads);
 
-  /// Upper estimate of the relative L2 error of the whole field: the mean over the sampled leaves plus two
-  /// standard deviations of that mean, times a margin.
-  double error(CoulombTree& tree, Threads threads);
+  /// The bound is the mean over the sampled leaves plus two standard deviations of that mean, times a margin.
+  SampledError error(CoulombTree& tree, Threads threads);
 
  private:
   int n_;
@@ -39,8 +42,8 @@ struct CoulombChoice {
   bool direct = true;
   std::string reason;
   TreeShape shape;
-  double expected_error = 0;
-  int measurements = 0;
+  SampledError error;
+  double work = std::numeric_limits<double>::infinity();  ///< price of an evaluation
 };
 
 /// Leaves `tree` arranged in the chosen shape.

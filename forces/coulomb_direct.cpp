@@ -41,6 +41,12 @@ template void coulomb_direct<3>(const PointCharges<3>&, Rows, const FieldArrays<
 template void coulomb_direct<1>(const PointCharges<1>&, Rows, const FieldArrays<1>&);
 template void coulomb_direct<3>(const PointCharges<3>&, Rows, const FieldArrays<3>&);
 
+void coulomb_direct_with_potential(const PointCharges<3>& points, Rows rows, const FieldArrays<3>& field,
+                                   double* potential, VectorPath path) {
+  double* const sums[4] = {field[0], field[1], field[2], potential};
+  wide_kernels(path).direct_with_potential(points.r.data(), points.q, points.n, rows, sums);
+}
+
 const char* vector_path() {
   return name(default_path());
 }

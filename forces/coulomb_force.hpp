@@ -63,8 +63,8 @@ class CoulombForce final : public ForceTerm<D> {
   /// E at the beads (its first rows), as `prepare` last computed it.
   const typename Chain<D>::Points& field() const { return field_; }
 
-  /// The sum to a stated error, null if it is direct.
-  const CoulombSolver* solver() const { return solver_.get(); }
+  /// The error of a sum to a stated error, null if it is direct.
+  const ForceError* error() const { return solver_ ? &solver_->report().error : nullptr; }
 
  private:
   static PointCharges<D> charges(const Chain<D>& c) {

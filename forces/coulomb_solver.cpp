@@ -1,5 +1,8 @@
 #include "forces/coulomb_solver.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -12,27 +15,41 @@ namespace {
 
 /// Evaluations between two sorts of the points in space, while their number stays the same.
 constexpr int sorted_every = 16;
+/// Part of the work that measuring the error may take.
+constexpr double measuring_share = 0.03;
+/// What a shape's opening may be narrowed by at a measurement.
+constexpr double narrowing = 0.93;
+constexpr int narrowings = 4;
 
-/// The field of all charges that are not at the place of point i.
-void field_without_coincident(const PointCharges<3>& points, int i, const FieldArrays<3>& field) {
-  double E[3] = {};
+bool differs_by(double part, int n, int before) {
+  return std::abs(n - before) > part * before;
+}
+
+/// Field and potential of all charges that are not at the place of point i.
+std::array<double, 4> without_coincident(const PointCharges<3>& points, int i) {
+  std::array<double, 4> sum{};
   for (int j = 0; j < points.n; ++j) {
     double d[3], d2 = 0;
     for (std::size_t e = 0; e < 3; ++e) {
       d[e] = points.r[e][i] - points.r[e][j];
       d2 += d[e] * d[e];
     }
-    if (d2 > 0)
-      for (int e = 0; e < 3; ++e) E[e] += points.q[j] * d[e] / (d2 * std::sqrt(d2));
+    if (!(d2 > 0)) continue;
+    const double potential = points.q[j] / std::sqrt(d2);
+    for (std::size_t e = 0; e < 3; ++e) sum[e] += potential / d2 * d[e];
+    sum[3] += potential;
   }
-  for (std::size_t e = 0; e < 3; ++e) field[e][i] = E[e];
+  return sum;
 }
 
-int repair_coincident(const PointCharges<3>& points, Rows rows, const FieldArrays<3>& field) {
+int repair_coincident(const PointCharges<3>& points, Rows rows, const FieldArrays<3>& field,
+                      double* potential) {
   int coincident = 0;
   for (int i = rows.first; i < rows.last; ++i)
     if (!std::isfinite(field[0][i] + field[1][i] + field[2][i])) {
-      field_without_coincident(points, i, field);
+      const auto sum = without_coincident(points, i);
+      for (std::size_t e = 0; e < 3; ++e) field[e][i] = sum[e];
+      if (potential) potential[i] = sum[3];
       ++coincident;
     }
   return coincident;
@@ -49,49 +66,77 @@ CoulombSolver::CoulombSolver(const CoulombRequest& request, VectorPath path, con
     throw InputError("coulomb opening must be above 0 and at most 0.9");
   if (request.leaf && (*request.leaf < 16 || *request.leaf % 16 != 0))
     throw InputError("coulomb leaf must be a multiple of 16");
+  report_.error.asked = request.accuracy;
 }
 
 void CoulombSolver::field(const PointCharges<3>& points, Rows rows, const FieldArrays<3>& field,
-                          Threads threads) {
+                          Threads threads, double* potential) {
   decide(points, threads);
   if (report_.direct) {
-    share_rows(ranks_, threads, rows, direct_block, field,
-               [&](Rows block) { coulomb_direct<3>(points, block, field, path_); });
+    const std::array<double*, 4> columns = {field[0], field[1], field[2], potential};
+    share_rows(ranks_, threads, rows, direct_block, std::span(columns).first(potential ? 4 : 3),
+               [&](Rows block) {
+                 if (potential)
+                   coulomb_direct_with_potential(points, block, field, potential, path_);
+                 else
+                   coulomb_direct<3>(points, block, field, path_);
+               });
     report_.interactions = {static_cast<std::int64_t>(rows.size()) * points.n, 0};
   } else {
-    report_.interactions = tree_.evaluate(tree_.leaves_of(rows), rows, field, threads);
+    report_.interactions = tree_.evaluate(tree_.leaves_of(rows), rows, field, threads, potential);
   }
-  report_.coincident = repair_coincident(points, rows, field);
-}
-
-bool CoulombSolver::due(int n) const {
-  return report_.choices == 0 || since_check_ >= request_.checked_every || 10 * std::abs(n - chosen_for_) > n;
+  report_.coincident = repair_coincident(points, rows, field, potential);
 }
 
 /// Leaves the tree arranged for these points, or `report_.direct` set.
 void CoulombSolver::decide(const PointCharges<3>& points, Threads threads) {
-  if (request_.method == CoulombMethod::direct || points.n < 2) {
-    report_.direct = true;
-    report_.reason = "asked for";
-    return;
-  }
-  const bool first = report_.choices == 0;
-  const bool check = due(points.n);
-  if (check) since_check_ = 0;
-  ++since_check_;
-  if (first || (check && report_.direct)) return choose(points, threads);
+  if (request_.method == CoulombMethod::direct || points.n < 2) return;
+  const int n = points.n;
+  if (report_.error.choices == 0 || differs_by(report_.direct ? 0.1 : 0.5, n, chosen_for_))
+    return choose(points, threads);
   if (report_.direct) return;
-
-  const bool keep_order = !check && ++since_sort_ < sorted_every;
+  ++since_measurement_;
+  const bool due = since_measurement_ >= measuring_interval(n) || differs_by(0.05, n, measured_for_);
+  const bool keep_order = !due && ++since_sort_ < sorted_every;
   if (!keep_order) since_sort_ = 0;
   tree_.arrange(points, report_.shape, threads, keep_order);
-  if (!check) return;
+  if (due) measure(points, threads);
+}
+
+/// A measurement takes an evaluation of all points and direct sums of the sample.
+int CoulombSolver::measuring_interval(int n) const {
+  if (request_.measured_every) return *request_.measured_every;
+  const double work = report_.work * n / chosen_for_;
+  return static_cast<int>(std::min(1e6, (work + double(sampled_points) * n) / (measuring_share * work)));
+}
+
+/// A shape that has become too inaccurate gets a somewhat narrower opening, which costs less than a search;
+/// only if that does not help it is chosen anew.
+void CoulombSolver::measure(const PointCharges<3>& points, Threads threads) {
   CoulombSample sample(points.n, tree_, threads);
-  report_.expected_error = sample.error(tree_, threads);
-  ++report_.measurements;
-  chosen_for_ = points.n;
+  record(sample.error(tree_, threads));
+  since_measurement_ = 0;
+  measured_for_ = points.n;
+  TreeShape& shape = report_.shape;
+  for (int k = 0; k < narrowings && report_.expected_error > request_.accuracy && !request_.opening; ++k) {
+    shape.opening *= narrowing;
+    tree_.reshape(shape.order, shape.opening, threads);
+    record(sample.error(tree_, threads));
+    report_.error.method = description(report_);
+  }
   if (report_.expected_error > request_.accuracy && !(request_.order && request_.opening))
     choose(points, threads);
+}
+
+void CoulombSolver::record(const SampledError& sampled) {
+  ForceError& error = report_.error;
+  report_.expected_error = sampled.bound;
+  error.l2 = sampled.l2;
+  error.max = sampled.max;
+  error.worst_l2 = std::max(error.worst_l2, error.l2);
+  error.worst_max = std::max(error.worst_max, error.max);
+  ++error.samples;
+  error.missed += error.l2 > error.asked;
 }
 
 void CoulombSolver::choose(const PointCharges<3>& points, Threads threads) {
@@ -99,11 +144,23 @@ void CoulombSolver::choose(const PointCharges<3>& points, Threads threads) {
   report_.direct = choice.direct;
   report_.reason = choice.reason;
   report_.shape = choice.shape;
-  report_.expected_error = choice.expected_error;
-  report_.measurements += choice.measurements;
-  ++report_.choices;
-  chosen_for_ = points.n;
-  since_sort_ = 0;
+  report_.work = choice.work;
+  report_.expected_error = report_.error.l2 = report_.error.max = 0;
+  if (!choice.direct) record(choice.error);
+  report_.error.method = description(report_);
+  ++report_.error.choices;
+  chosen_for_ = measured_for_ = points.n;
+  since_measurement_ = since_sort_ = 0;
+}
+
+std::string description(const CoulombReport& report) {
+  const TreeShape& s = report.shape;
+  if (report.direct) return fmt::format("direct sum ({})", report.reason);
+  return fmt::format(
+      "{} of order {}, opening {:.3g}, leaves of {}, {}, near field {}, expected error {:.2g} ({})",
+      s.local ? "tree" : "tree without local expansions", s.order, s.opening, s.leaf,
+      s.block > 0 ? fmt::format("space by blocks of {}", s.block) : "chain", s.single ? "single" : "double",
+      report.expected_error, report.reason);
 }
 
 }  // namespace treejet

@@ -11,18 +11,20 @@
 /// How the promise is kept: errors are measured, not bounded, because neighbours on a chain cancel and
 /// amplify every error 10 to 100 times. A shape is taken only if the errors of sampled leaves against direct
 /// summation, with an allowance for the spread between leaves, stay below the accuracy. The measurement is
-/// repeated every `checked_every` evaluations and when the number of points has changed by a tenth; if it
-/// fails, the shape is chosen anew. If no shape is accurate enough, or none is expected to be faster, the sum
-/// is direct, and the report says so.
+/// repeated when the number of points has changed by a twentieth, and so often that it takes 3 % of the work;
+/// if it fails, the opening is narrowed, or if that does not help the shape is chosen anew, as it is when the
+/// number of points has changed by half. If no shape is accurate enough, or none is expected to be faster,
+/// the sum is direct, and the report says so.
 ///
-/// All decisions follow from the points and the count of evaluations, never from a clock: the same calls give
-/// the same bits on any number of threads and ranks.
+/// All decisions follow from the points, the count of evaluations and counted work, never from a clock: the
+/// same calls give the same bits on any number of threads and ranks.
 ///
 /// Two points at one place: the pair is left out of both fields, and counted in the report.
 
 #include <optional>
 #include <string>
 
+#include "core/force_error.hpp"
 #include "forces/coulomb.hpp"
 #include "forces/coulomb_tree.hpp"
 
@@ -33,28 +35,40 @@ enum class CoulombMethod { automatic, direct, tree };
 struct CoulombRequest {
   CoulombMethod method = CoulombMethod::automatic;
   double accuracy = 1e-5;
-  std::optional<int> order;       ///< 2 to 14
-  std::optional<double> opening;  ///< 0 to 0.9
-  std::optional<int> leaf;        ///< a multiple of 16
-  std::optional<bool> space;      ///< order in space, or that of the chain
-  bool local_expansions = true;   ///< false: Barnes-Hut, with the same search for opening and order
-  int checked_every = 64;
+  std::optional<int> order = {};           ///< 2 to 14
+  std::optional<double> opening = {};      ///< 0 to 0.9
+  std::optional<int> leaf = {};            ///< a multiple of 16
+  std::optional<bool> space = {};          ///< order in space, or that of the chain
+  bool local_expansions = true;            ///< false: Barnes-Hut, with the same search for opening and order
+  std::optional<int> measured_every = {};  ///< evaluations; without it, as takes 3 % of the work
+};
+
+/// The error of the field on sampled leaves, relative to the root mean square of the field over all points
+/// but the hundredth with the strongest field: in a cloud a few close pairs may hold most of it, and the
+/// promise is to hold for a sample without them as well.
+struct SampledError {
+  double l2 = 0, max = 0;  ///< root mean square and largest over the sample
+  double bound = 0;        ///< upper estimate of the l2 of all points
 };
 
 struct CoulombReport {
   bool direct = true;
-  std::string reason;         ///< why direct, or how the shape was found
-  TreeShape shape;            ///< of the tree, if not direct
-  double expected_error = 0;  ///< relative L2, as last measured on sampled leaves; 0 for direct
-  int measurements = 0;       ///< of the error, so far
-  int choices = 0;            ///< of a shape, so far
-  int coincident = 0;         ///< points of the last evaluation that share their place with another
-  Interactions interactions;  ///< of the last evaluation
+  std::string reason = "asked for";  ///< why direct, or how the shape was found
+  TreeShape shape;                   ///< of the tree, if not direct
+  double expected_error = 0;         ///< upper estimate for all points, as last measured; 0 for direct
+  double work = 0;                   ///< price of an evaluation, in direct pairs, when the shape was chosen
+  ForceError error;                  ///< measured on the sample
+  int coincident = 0;                ///< points of the last evaluation that share their place with another
+  Interactions interactions;         ///< of the last evaluation
 
   void visit(Archive& state) {
-    state(direct, reason, shape, expected_error, measurements, choices, coincident, interactions);
+    state(direct, reason, shape, expected_error, work, error, coincident, interactions);
   }
 };
+
+/// "tree of order 5, opening 0.42, leaves of 32, chain, near field single, expected error 8.9e-06 (cheapest
+/// accurate shape)", "direct sum (asked for)".
+std::string description(const CoulombReport& report);
 
 class CoulombSolver {
  public:
@@ -62,25 +76,31 @@ class CoulombSolver {
   explicit CoulombSolver(const CoulombRequest& request, VectorPath path = default_path(),
                          const Ranks& ranks = {});
 
-  /// The field at `rows`, the same on all ranks.
-  void field(const PointCharges<3>& points, Rows rows, const FieldArrays<3>& field, Threads threads);
+  /// Sets the field of `rows`, and the potential if there is a place for it: the same on all ranks.
+  void field(const PointCharges<3>& points, Rows rows, const FieldArrays<3>& field, Threads threads,
+             double* potential = nullptr);
 
   const CoulombReport& report() const { return report_; }
 
   /// What the next decisions are made from.
-  void visit(Archive& state) { state(tree_, report_, chosen_for_, since_check_, since_sort_); }
+  void visit(Archive& state) {
+    state(tree_, report_, chosen_for_, measured_for_, since_measurement_, since_sort_);
+  }
 
  private:
   void decide(const PointCharges<3>& points, Threads threads);
   void choose(const PointCharges<3>& points, Threads threads);
-  bool due(int n) const;
+  void measure(const PointCharges<3>& points, Threads threads);
+  void record(const SampledError& error);
+  int measuring_interval(int n) const;
 
   CoulombRequest request_;
   VectorPath path_;
   Ranks ranks_;
   CoulombTree tree_;
   CoulombReport report_;
-  int chosen_for_ = 0, since_check_ = 0, since_sort_ = 0;
+  int chosen_for_ = 0, measured_for_ = 0;  ///< points
+  int since_measurement_ = 0, since_sort_ = 0;
 };
 
 }  // namespace treejet

@@ -2,21 +2,21 @@
 /// The Coulomb field of charges by a tree of a given shape: what to compute, not how well (coulomb_solver.hpp
 /// chooses the shape from an accuracy).
 ///
-///     tree.arrange(points, shape, threads);          order of the points, cells, moments
-///     tree.evaluate(wanted, field, threads);         the field at points of the wanted leaves
+///     tree.arrange(points, shape, threads);              order of the points, cells, moments
+///     tree.evaluate(leaves, rows, field, threads);       the field at points of the leaves
 ///
 /// Moments go up (P2M, M2M), across to far cells (M2L), down (L2L) and out (L2P); near leaves act point by
-/// point (P2P). The shape without local expansions is the treecode of Barnes and Hut: moments act on points
-/// at once (M2P). A field value is computed by one thread in an order of summation that depends on the points
-/// and the shape only. Source: Barnes and Hut, Nature 324 (1986) 446; Dehnen, J. Comput. Phys. 179 (2002) 27.
+/// point (P2P). The shape without local expansions is barnes_hut.hpp. A target cell's sums depend on the
+/// points and the shape only, not on which other targets are wanted or who computes them: one thread does, in
+/// one order. Source: Dehnen, J. Comput. Phys. 179 (2002) 27.
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/archive.hpp"
 #include "forces/cells.hpp"
-#include "forces/coulomb.hpp"
+#include "forces/interactions.hpp"
+#include "forces/ordered_points.hpp"
 #include "forces/wide_kernels.hpp"
 #include "parallel/ranks.hpp"
 
@@ -31,12 +31,6 @@ struct TreeShape {
   bool local = true;     ///< local expansions; false: Barnes-Hut
 };
 
-/// What an evaluation did: pairs of points summed directly, and expansions evaluated (M2L, or M2P with
-/// Barnes-Hut).
-struct Interactions {
-  std::int64_t pairs = 0, expansions = 0;
-};
-
 class CoulombTree {
  public:
   explicit CoulombTree(VectorPath path = default_path(), const Ranks& ranks = {})
@@ -45,20 +39,27 @@ class CoulombTree {
   /// With `keep_order` the order found last time serves again, if the number of points and the shape allow
   /// it: right for any points, best while they hardly move.
   void arrange(const PointCharges<3>& points, const TreeShape& shape, Threads threads,
-               bool keep_order = false);
+               bool keep_order = false) {
+    place(points, shape, threads, keep_order);
+    expand(threads);
+  }
+  /// Its two parts: points and cells, which is all that `count` needs, and moments.
+  void place(const PointCharges<3>& points, const TreeShape& shape, Threads threads, bool keep_order = false);
+  void expand(Threads threads);
   /// The same points, another order or opening.
   void reshape(int order, double opening, Threads threads);
 
-  /// The leaves that hold points of `rows`, and a sample of `count` leaves spread over the tree.
+  int leaves() const { return cells_.leaves(); }
+  /// The leaves that hold points of `rows`.
   std::vector<int> leaves_of(Rows rows) const;
-  std::vector<int> sample_leaves(int count) const;
   /// The points of a leaf, by their place in the caller's arrays.
   std::vector<int> points_of(int leaf) const;
 
-  /// Writes the field at the points of the given leaves (ascending) that lie in `rows`. Ranks share the
-  /// leaves out; what is done is told of this rank's share.
+  /// Writes the field, and the potential if there is a place for it, at the points of the given leaves
+  /// (ascending) that lie in `rows`. With the potential the near field is in double precision. Ranks share
+  /// the leaves out; what is done is told of this rank's share.
   Interactions evaluate(const std::vector<int>& leaves, Rows rows, const FieldArrays<3>& field,
-                        Threads threads);
+                        Threads threads, double* potential = nullptr);
 
   /// The same by direct summation.
   void evaluate_directly(const std::vector<int>& leaves, const FieldArrays<3>& field, Threads threads);
@@ -71,16 +72,13 @@ class CoulombTree {
   void visit(Archive& state);
 
  private:
-  int source(int k) const { return order_.empty() ? k : order_[static_cast<std::size_t>(k)]; }
-  void copy_points(const PointCharges<3>& points, Threads threads);
-  void expand(int order, Threads threads);
   void move_up(Threads threads);
   std::span<const int> own_share(const std::vector<int>& leaves) const;
-  void gather(const std::vector<int>& leaves);
-  void give(const std::vector<int>& leaves, Rows rows, const FieldArrays<3>& field, Threads threads) const;
+  void gather(const std::vector<int>& leaves, std::size_t sums);
   void move_down(Threads threads);
-  Interactions local_expansions(Threads threads);
-  Interactions barnes_hut(Threads threads);
+  void want(std::span<const int> leaves);
+  Interactions local_expansions(std::span<const int> leaves, Threads threads);
+  Interactions barnes_hut(std::span<const int> leaves, Threads threads);
   void act_near(int leaf, std::span<const int> near);
   CellPoints leaf_cell(int leaf) const;
   bool wanted(int cell) const { return wanted_[static_cast<std::size_t>(cell)]; }
@@ -90,10 +88,9 @@ class CoulombTree {
   TreeShape shape_;
   Cells cells_;
   Expansions expansions_{};
-  std::vector<int> order_;
-  std::vector<double> r_[3], q_, field_[3], moments_, locals_;
+  OrderedPoints points_;
+  std::vector<double> moments_, locals_;
   std::vector<char> wanted_;
-  double charge_unit_ = 1;  ///< largest |q|
 };
 
 }  // namespace treejet

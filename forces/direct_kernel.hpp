@@ -1,7 +1,9 @@
 #pragma once
 /// The direct Coulomb sum over one block of targets held in registers, sources broadcast one after the other:
 ///
-///     E_i = sum_j q_j |d|^-3 d,   d = r_i - r_j,   j ascending.
+///     E_i = sum_j q_j |d|^-3 d,   d = r_i - r_j,   j ascending,
+///
+/// and if wanted phi_i = sum_j q_j |d|^-1, which is then summed beside the components of E.
 ///
 /// Blocks have `Isa::lanes * Isa::groups` targets and start at multiples of that number counted from row 0,
 /// also when `rows` starts elsewhere, so the bits of a row do not depend on who asks for it. Only the block's
@@ -15,13 +17,13 @@
 namespace treejet {
 namespace {
 
-template <class Isa, int D, class T = double>
+template <class Isa, int D, class T = double, bool potential = false>
 struct DirectBlock {
   static constexpr int lanes = Isa::lanes * static_cast<int>(sizeof(double) / sizeof(T)),
                        groups = Isa::groups;
-  static constexpr int size = lanes * groups;
+  static constexpr int size = lanes * groups, sums = D + (potential ? 1 : 0);
   using Pack = Wide<T, lanes>;
-  Pack r[D][groups], e[D][groups];
+  Pack r[D][groups], e[sums][groups];
 
   /// Targets first.. of n.
   DirectBlock(const T* const* target, int first, int n) {
@@ -29,8 +31,9 @@ struct DirectBlock {
       for (int g = 0; g < groups; ++g) {
         const int at = first + g * lanes;
         r[k][g] = load_first<T, lanes>(target[k] + at, n - at);
-        e[k][g] = Pack{};
       }
+    for (auto& sum : e)
+      for (Pack& part : sum) part = Pack{};
   }
 
   /// Adds the field of the source j, not one of the targets, and to `back` what the targets, with charges
@@ -54,7 +57,7 @@ struct DirectBlock {
   }
 
   void store(T* const* field, int first, Rows rows) const {
-    for (int k = 0; k < D; ++k)
+    for (int k = 0; k < sums; ++k)
       for (int g = 0; g < groups; ++g) {
         const int at = first + g * lanes;
         store_lanes<T, lanes>(field[k] + at, e[k][g], rows.first - at, rows.last - at);
@@ -85,13 +88,14 @@ struct DirectBlock {
       Pack w = Isa::over_cube(q, d2);
       if (own) w = count_from<T, lanes>(g * lanes) == self ? Pack{} : w;
       for (int k = 0; k < D; ++k) e[k][g] += w * d[k];
+      if (potential) e[sums - 1][g] += w * d2;
     }
   }
 };
 
-template <class Isa, int D>
+template <class Isa, int D, bool potential = false>
 void direct(const double* const* r, const double* q, int n, Rows rows, double* const* field) {
-  using Block = DirectBlock<Isa, D>;
+  using Block = DirectBlock<Isa, D, double, potential>;
   for (int first = rows.first / Block::size * Block::size; first < rows.last; first += Block::size) {
     Block block(r, first, n);
     block.add_range(r, q, {0, n}, {first, n < first + Block::size ? n : first + Block::size});
@@ -133,9 +137,9 @@ void direct_mutual(const double* const* r, const double* q, int n, double* const
 }
 
 /// The near field of the points of a cell: sources are the points of `count` ranges, in their order.
-template <class Isa>
+template <class Isa, bool potential = false>
 void p2p(const CellPoints& target, const CellRange* source, int count, double* const* field) {
-  using Block = DirectBlock<Isa, 3>;
+  using Block = DirectBlock<Isa, 3, double, potential>;
   const int end = target.first + target.count;
   for (int first = target.first; first < end; first += Block::size) {
     Block block(target.r, first, end);

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace treejet {
 
 namespace {
@@ -23,16 +21,11 @@ EquationsOfMotion<D>::EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<Stress
 }
 
 template <int D>
-Threads EquationsOfMotion<D>::worthwhile(int beads) const {
-  return {std::clamp(beads / beads_worth_a_thread, 1, threads_.count)};
-}
-
-template <int D>
 void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
   const int n = static_cast<int>(y.rows());
   slope.resize(n, Eigen::NoChange);
   if (n == 0) return;
-  const Threads threads = worthwhile(n);
+  const Threads threads = worthwhile(threads_, n);
 
   set_boundary<D>(chain_, jet, nozzle_, t, y);
   for_each_block(threads, {0, n}, block, [&](Rows rows) {

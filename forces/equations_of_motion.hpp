@@ -45,8 +45,6 @@ class EquationsOfMotion final : public Motion<D> {
   const std::vector<std::unique_ptr<ForceTerm<D>>>& terms() const { return terms_; }
 
  private:
-  Threads worthwhile(int beads) const;
-
   Nozzle<D> nozzle_;
   std::unique_ptr<StressLaw<D>> stress_law_;
   std::vector<std::unique_ptr<ForceTerm<D>>> terms_;
@@ -54,10 +52,6 @@ class EquationsOfMotion final : public Motion<D> {
   Threads threads_;
   Chain<D> chain_;
 };
-
-/// Fewer beads than this for each thread do not repay waking it: the Coulomb sum over 2 * 256 beads takes
-/// about as long as a hundred wake-ups, so that a late one does no harm either.
-constexpr int beads_worth_a_thread = 256;
 
 /// "2 threads (1 below 128 beads)".
 std::string threads_description(Threads threads);

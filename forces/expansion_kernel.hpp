@@ -91,6 +91,7 @@ struct ExpansionKernel {
     Pack D[3 * plane], S[2 * plane], T[2 * plane];
     const int p = x.order;
     Terms::clear(p, 2, T);
+    if (x.potential) Terms::clear(p, 2, S);
     Terms::frame(p, D);
     for (int k = 0; k < count; k += lanes) {
       int cell[lanes];
@@ -103,7 +104,7 @@ struct ExpansionKernel {
       for (int e = 0; e < 3; ++e) R[e] = x.centre[e][target] - Isa::pick(x.centre[e], cell);
       Terms::derivatives(p, R[0], R[1], R[2], D);
       Terms::gather(p - 1, terms, S);
-      Contraction<Isa>::run(p, S, D, T);
+      Contraction<Isa>::run(p, S, D, T, x.potential);
     }
     Terms::sum_lanes(p, T, x.locals + static_cast<long>(target) * x.local_stride);
   }
@@ -111,8 +112,8 @@ struct ExpansionKernel {
   /// Adds to L of the cells `children` what their parents have; parents and children paired as in m2m.
   static void l2l(const Expansions& x, CellRange parents, CellRange children) {
     Pack P[2 * plane], D[3 * plane], T[2 * plane];
-    const int p = x.order;
-    Terms::frame(p - 1, P);
+    const int p = x.order, degree = x.potential ? p : p - 1;
+    Terms::frame(degree, P);
     for (int first = children.first; first < children.last; first += lanes) {
       double d[3][lanes];
       const double* parent_terms[lanes];
@@ -126,16 +127,17 @@ struct ExpansionKernel {
       }
       Terms::gather(p, parent_terms, D);
       Terms::fold(p, D);
-      Terms::polynomials(p - 1, in_lanes(d[0]), in_lanes(d[1]), in_lanes(d[2]), P);
+      Terms::polynomials(degree, in_lanes(d[0]), in_lanes(d[1]), in_lanes(d[2]), P);
       Terms::gather(p, child_terms, T);
-      Contraction<Isa>::run(p, P, D, T);
+      Contraction<Isa>::run(p, P, D, T, x.potential);
       const int used = children.last - first < lanes ? children.last - first : lanes;
       Terms::scatter(p, T, child_terms, used);
     }
   }
 
-  /// Adds the field of the local series of a cell at its points, to arrays in tree order.
-  static void l2p(const Expansions& x, int cell, const CellPoints& points, double* const* field) {
+  /// Adds the field of the local series of a cell at its points, and the potential if the series is made for
+  /// it, to three or four arrays in tree order.
+  static void l2p(const Expansions& x, int cell, const CellPoints& points, double* const* sums) {
     Pack P[2 * plane];
     const int degree = x.order - 1;
     Terms::frame(degree, P);
@@ -148,9 +150,12 @@ struct ExpansionKernel {
       Terms::polynomials(degree, d[0], d[1], d[2], P);
       gradient(x.order, L, P, E);
       for (int e = 0; e < 3; ++e) {
-        const Pack sum = load_first<double, lanes>(field[e] + first, left) - E[e];
-        store_lanes<double, lanes>(field[e] + first, sum, 0, left);
+        const Pack sum = load_first<double, lanes>(sums[e] + first, left) - E[e];
+        store_lanes<double, lanes>(sums[e] + first, sum, 0, left);
       }
+      if (!x.potential) continue;
+      const Pack sum = load_first<double, lanes>(sums[3] + first, left) + potential(x.order, L, P);
+      store_lanes<double, lanes>(sums[3] + first, sum, 0, left);
     }
   }
 
@@ -170,6 +175,15 @@ struct ExpansionKernel {
               T[at(t, j + bj, c + bc)] = sum;
             }
           }
+  }
+
+  /// sum_b P_b L_b for |b| < p.
+  static Pack potential(int p, const double* L, const Pack* P) {
+    Pack sum{};
+    for (int c = 0; c <= 1; ++c)
+      for (int j = 0; j + c < p; ++j)
+        for (int i = 0; i + j + c < p; ++i) sum += L[packed(p, i, j, c)] * P[at(i, j, c)];
+    return sum;
   }
 
   /// E = grad sum_b P_b L_b, by dP_{ijc}/dx = P_{i-1,j,c} and its like (multipole.cpp, `l2p`).

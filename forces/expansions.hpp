@@ -14,6 +14,7 @@ struct Expansions {
   const double* centre[3];
   double* moments;
   double* locals;
+  bool potential;  ///< whether local series are made to give the potential as well as the field
 };
 
 /// Cells first..last-1, whose parents (or children) of the same level stand together elsewhere.

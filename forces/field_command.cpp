@@ -16,8 +16,8 @@ namespace {
 
 /// Seconds of the stages; `choose` is not redone when points move, the others are.
 struct Times {
-  double choose = 0, arrange = 0, evaluate = 0;
-  double moved() const { return arrange + evaluate; }
+  double choose = 0, build = 0, upward = 0, evaluate = 0;
+  double moved() const { return build + upward + evaluate; }
 };
 
 template <class F>
@@ -42,7 +42,8 @@ Times timed(const FieldCommand& command, const PointTable& points, CoulombSolver
     if (report.direct) {
       once.evaluate = seconds([&] { solver.field(points.view(), all, field, threads); });
     } else {
-      once.arrange = seconds([&] { tree.arrange(points.view(), report.shape, threads); });
+      once.build = seconds([&] { tree.place(points.view(), report.shape, threads); });
+      once.upward = seconds([&] { tree.expand(threads); });
       once.evaluate = seconds([&] { tree.evaluate(tree.leaves_of(all), all, field, threads); });
     }
     if (once.moved() < best.moved()) best = once;
@@ -61,7 +62,7 @@ std::string object(const CoulombReport& report, int n, const Times& times, const
   std::string text = fmt::format(
       R"({{"n":{},"method":"{}","reason":"{}","vector_path":"{}","order":{},"opening":{:.4g},"leaf":{},"tree":"{}",)"
       R"("block":{},"near_field":"{}","accuracy_expected":{:.3g},"coincident":{},"seconds":{:.6g},"seconds_choose":{:.6g},)"
-      R"("seconds_arrange":{:.6g},"seconds_evaluate":{:.6g},"ns_per_point":{:.4g},"interactions":{},)"
+      R"("seconds_build":{:.6g},"seconds_upward":{:.6g},"seconds_evaluate":{:.6g},"ns_per_point":{:.4g},"interactions":{},)"
       R"("pairs":{},"expansions":{})",
       n, method(report), report.reason, vector_path(), report.direct ? 0 : report.shape.order,
       report.direct ? 0 : report.shape.opening, report.direct ? 0 : report.shape.leaf,
@@ -69,7 +70,7 @@ std::string object(const CoulombReport& report, int n, const Times& times, const
       : report.shape.block > 0 ? "space"
                                : "chain",
       report.shape.block, report.shape.single ? "single" : "double", report.expected_error, report.coincident,
-      times.moved(), times.choose, times.arrange, times.evaluate, 1e9 * times.moved() / n,
+      times.moved(), times.choose, times.build, times.upward, times.evaluate, 1e9 * times.moved() / n,
       report.interactions.pairs + report.interactions.expansions, report.interactions.pairs,
       report.interactions.expansions);
   if (error) {
@@ -85,20 +86,14 @@ std::string object(const CoulombReport& report, int n, const Times& times, const
 }
 
 std::string lines(const CoulombReport& report, int n, const Times& times, const FieldError* error) {
-  std::string text =
-      fmt::format("{} points, {} ({}), vectors: {}\n", n, method(report), report.reason, vector_path());
-  if (!report.direct)
-    text += fmt::format(
-        "order {}, opening {:.3g}, leaf {}, {}, near field {}, expected error {:.2g}\n", report.shape.order,
-        report.shape.opening, report.shape.leaf,
-        report.shape.block > 0 ? fmt::format("space by blocks of {}", report.shape.block) : "chain",
-        report.shape.single ? "single" : "double", report.expected_error);
+  std::string text = fmt::format("{} points, {}, vectors: {}\n", n, description(report), vector_path());
   if (report.coincident > 0)
     text += fmt::format("{} points share their place: pairs left out\n", report.coincident);
   text += fmt::format("{} pairs, {} expansions\n", report.interactions.pairs, report.interactions.expansions);
   text += fmt::format(
-      "redone when points move: {:.3g} s ({:.4g} ns a point) = arrange {:.3g} s + evaluate {:.3g} s\n",
-      times.moved(), 1e9 * times.moved() / n, times.arrange, times.evaluate);
+      "redone when points move: {:.3g} s ({:.4g} ns a point) = build {:.3g} s + upward {:.3g} s + evaluate "
+      "{:.3g} s\n",
+      times.moved(), 1e9 * times.moved() / n, times.build, times.upward, times.evaluate);
   text += fmt::format("not redone: choice of the method {:.3g} s\n", times.choose);
   if (!error) return text;
   text += fmt::format("error against direct summation at {} of {} points: relative L2 {:.3g}\n",
@@ -124,7 +119,12 @@ void run(const FieldCommand& command, std::ostream& report) {
   const FieldError* compared = command.compare ? &error : nullptr;
   report << (command.json ? object(solver.report(), points.size(), times, compared)
                           : lines(solver.report(), points.size(), times, compared));
-  if (!command.out.empty() && command.ranks.first()) write_field(command.out, points, field);
+  if (command.out.empty()) return;
+  std::vector<double> beside[3], potential(points.q.size());
+  for (auto& values : beside) values.resize(points.q.size());
+  solver.field(points.view(), {0, points.size()}, {beside[0].data(), beside[1].data(), beside[2].data()},
+               {command.threads}, potential.data());
+  if (command.ranks.first()) write_field(command.out, points, field, potential.data());
 }
 
 }  // namespace treejet

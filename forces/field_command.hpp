@@ -3,7 +3,8 @@
 /// with the time it took and, if wanted, its error against direct summation.
 ///
 /// POINTS.csv has a header line naming the columns x, y, z and q (in any order, others are ignored) and one
-/// point a line. FIELD.csv gets x,y,z,q,ex,ey,ez with 17 digits. Units are the caller's: charge / length^2.
+/// point a line. FIELD.csv gets x,y,z,q,ex,ey,ez,potential with 17 digits. Units are the caller's: charge /
+/// length^2, charge / length.
 
 #include <iosfwd>
 #include <string>

@@ -112,4 +112,17 @@ Vector3 m2p(const Series& M, const Vector3& r_minus_centre) {
   return {-L(1, 0, 0), -L(0, 1, 0), -L(0, 0, 1)};
 }
 
+double l2p_potential(const Series& L, const Vector3& r_minus_centre) {
+  const Series P = polynomials(L.degree() - 1, r_minus_centre);
+  double potential = 0;
+  for_each_term(P.degree(), [&](int i, int j, int c) { potential += P(i, j, c) * L(i, j, c); });
+  return potential;
+}
+
+double m2p_potential(const Series& M, const Vector3& r_minus_centre) {
+  Series L(0);
+  contract(M, derivatives(M.degree(), r_minus_centre), L);
+  return L(0, 0, 0);
+}
+
 }  // namespace treejet

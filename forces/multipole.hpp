@@ -1,4 +1,5 @@
 #pragma once
+// clang-format off
 /// The mathematics of the fast Coulomb sum, written plainly. Knows no tree; the fast kernels
 /// (expansion_kernel.hpp) are the same formulas on eight nodes at a time and are tested against these.
 ///
@@ -12,15 +13,16 @@
 ///
 ///     P2M   M_a  = sum_j q_j P_a(centre - r_j)                 moments of a cell
 ///     M2M   M'_a = sum_b M_b P_{a-b}(centre' - centre)         moved to the parent's centre
-///     M2L   L_b  = sum_a M_a D_{a+b}(centre_L - centre_M)      derivatives of the potential at another
-///     centre L2L   L'_b = sum_a P_a(centre' - centre) L_{a+b}         moved to a child's centre L2P   E    =
-///     -grad sum_b P_b(r - centre) L_b             the field M2P   E    = -grad sum_a M_a D_a(r - centre)
-///     moments to field at once (Barnes-Hut)
+///     M2L   L_b  = sum_a M_a D_{a+b}(centre_L - centre_M)      derivatives of the potential at another centre
+///     L2L   L'_b = sum_a P_a(centre' - centre) L_{a+b}         moved to a child's centre
+///     L2P   E    = -grad sum_b P_b(r - centre) L_b             the field
+///     M2P   E    = -grad sum_a M_a D_a(r - centre)             moments to field at once (Barnes-Hut)
 ///
 /// Wherever a+b has c = 2, D_{i,j,2} = -D_{i+2,j,0} - D_{i,j+2,0}. An expansion of order p keeps degrees
 /// |a| + |b| <= p; only the field is wanted, so moments stop at degree p-1.
 /// Sources: Duan and Krasny, J. Comput. Chem. 22 (2001) 184 (recurrence of D); Dehnen, J. Comput. Phys. 179
 /// (2002) 27 (both sides expanded); the reduction to c <= 1 is Hobson's theorem on solid harmonics.
+// clang-format on
 
 #include <array>
 #include <vector>
@@ -64,5 +66,9 @@ void m2l(const Series& M, const Vector3& R, Series& L);
 void l2l(const Series& parent, const Vector3& child_minus_parent, Series& child);
 Vector3 l2p(const Series& L, const Vector3& r_minus_centre);
 Vector3 m2p(const Series& M, const Vector3& r_minus_centre);
+
+/// The potential beside the field, to one degree less.
+double l2p_potential(const Series& L, const Vector3& r_minus_centre);
+double m2p_potential(const Series& M, const Vector3& r_minus_centre);
 
 }  // namespace treejet

@@ -68,13 +68,15 @@ PointTable read_points(const std::string& file) {
   return table;
 }
 
-void write_field(const std::string& file, const PointTable& points, const FieldArrays<3>& field) {
+void write_field(const std::string& file, const PointTable& points, const FieldArrays<3>& field,
+                 const double* potential) {
   try {
     auto out = fmt::output_file(file);
-    out.print("x,y,z,q,ex,ey,ez\n");
+    out.print("x,y,z,q,ex,ey,ez,potential\n");
     for (std::size_t i = 0; i < points.q.size(); ++i)
-      out.print("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", points.r[0][i], points.r[1][i],
-                points.r[2][i], points.q[i], field[0][i], field[1][i], field[2][i]);
+      out.print("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", points.r[0][i],
+                points.r[1][i], points.r[2][i], points.q[i], field[0][i], field[1][i], field[2][i],
+                potential[i]);
   } catch (const std::system_error& failure) {
     throw FileError("cannot write " + file + ": " + failure.what());
   }

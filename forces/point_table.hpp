@@ -19,7 +19,8 @@ struct PointTable {
 /// one.
 PointTable read_points(const std::string& file);
 
-/// Writes points and field; FileError if that fails.
-void write_field(const std::string& file, const PointTable& points, const FieldArrays<3>& field);
+/// Writes points, field and potential; FileError if that fails.
+void write_field(const std::string& file, const PointTable& points, const FieldArrays<3>& field,
+                 const double* potential);
 
 }  // namespace treejet

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/collector.hpp"
+#include "core/force_error.hpp"
 #include "core/nozzle.hpp"
 #include "core/parameters.hpp"
 #include "forces/equations_of_motion.hpp"
@@ -31,6 +32,9 @@ struct Scene {
     if (two_rates) return *two_rates;
     return *motion;
   }
+
+  /// What is measured of approximate forces, null where all are exact.
+  const ForceError* force_error() const { return motion->coulomb() ? motion->coulomb()->error() : nullptr; }
 };
 
 template <int D>

@@ -5,6 +5,7 @@
 /// evaluation, before any `add`, and may use the threads it is given; `add` runs concurrently on disjoint
 /// rows and writes those rows only. Scaled: the result is a force over the mass of the bead it acts on.
 
+#include <algorithm>
 #include <string_view>
 
 #include "core/chain.hpp"
@@ -12,6 +13,14 @@
 #include "parallel/threads.hpp"
 
 namespace treejet {
+
+/// Fewer beads than this for each thread do not repay waking it: the Coulomb sum over 2 * 256 beads takes
+/// about as long as a hundred wake-ups, so that a late one does no harm either.
+constexpr int beads_worth_a_thread = 256;
+
+inline Threads worthwhile(Threads threads, int beads) {
+  return {std::clamp(beads / beads_worth_a_thread, 1, threads.count)};
+}
 
 /// The velocity columns of a slope table.
 template <int D>

@@ -52,9 +52,11 @@ struct Avx2 {
 
 const WideKernels wide_avx2 = {direct<Avx2, 1>,
                                direct<Avx2, 3>,
+                               direct<Avx2, 3, true>,
                                direct_mutual<Avx2, 1>,
                                direct_mutual<Avx2, 3>,
                                p2p<Avx2>,
+                               p2p<Avx2, true>,
                                p2p_single<Avx2>,
                                ExpansionKernel<Avx2>::reach,
                                ExpansionKernel<Avx2>::p2m,

@@ -65,9 +65,11 @@ struct Avx512 {
 
 const WideKernels wide_avx512 = {direct<Avx512, 1>,
                                  direct<Avx512, 3>,
+                                 direct<Avx512, 3, true>,
                                  direct_mutual<Avx512, 1>,
                                  direct_mutual<Avx512, 3>,
                                  p2p<Avx512>,
+                                 p2p<Avx512, true>,
                                  p2p_single<Avx512>,
                                  ExpansionKernel<Avx512>::reach,
                                  ExpansionKernel<Avx512>::p2m,

@@ -16,13 +16,15 @@ struct WideKernels {
   /// Rows of the field of n charges at D coordinate arrays (coulomb.hpp).
   using Direct = void (*)(const double* const* r, const double* q, int n, Rows rows, double* const* field);
   Direct direct_1d, direct_3d;
+  Direct direct_with_potential;  ///< three dimensions; the potential goes to a fourth array
 
   /// The whole field of at most 512 charges (few_points of coulomb.hpp) by Newton's third law.
   using Mutual = void (*)(const double* const* r, const double* q, int n, double* const* field);
   Mutual mutual_1d, mutual_3d;
 
-  /// The near field of the points of a cell, to arrays in tree order.
-  void (*p2p)(const CellPoints& target, const CellRange* source, int count, double* const* field);
+  /// The near field of the points of a cell, to arrays in tree order; the potential to a fourth one.
+  using Near = void (*)(const CellPoints& target, const CellRange* source, int count, double* const* field);
+  Near p2p, p2p_with_potential;
 
   /// The same in single precision (single_kernel.hpp).
   void (*p2p_single)(const CellPoints& target, const CellRange* source, int count, const NearUnits& unit,
@@ -36,7 +38,7 @@ struct WideKernels {
   void (*m2m)(const Expansions&, CellRange parents, CellRange children);
   void (*m2l)(const Expansions&, int target, const int* source, int count);
   void (*l2l)(const Expansions&, CellRange parents, CellRange children);
-  void (*l2p)(const Expansions&, int cell, const CellPoints&, double* const* field);
+  void (*l2p)(const Expansions&, int cell, const CellPoints&, double* const* sums);
 };
 
 /// The kernels of a path that runs here.

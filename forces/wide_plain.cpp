@@ -38,9 +38,11 @@ struct Plain {
 
 const WideKernels wide_plain = {direct<Plain, 1>,
                                 direct<Plain, 3>,
+                                direct<Plain, 3, true>,
                                 direct_mutual<Plain, 1>,
                                 direct_mutual<Plain, 3>,
                                 p2p<Plain>,
+                                p2p<Plain, true>,
                                 p2p_single<Plain>,
                                 ExpansionKernel<Plain>::reach,
                                 ExpansionKernel<Plain>::p2m,

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Draws the tables of treejet-validate: work_precision, orders of convergence, time reversal, stable steps, scaling.
+"""Draws the tables of treejet-validate: work_precision, orders of convergence, time reversal, stable steps, scaling, the
+Coulomb field's error against time, its crossover with the direct sum and its growth.
 
     validation/plot_validation.py DIR [--out DIR]
 
@@ -190,6 +191,97 @@ def draw_scaling(rows, out):
         finish(figure, panels[0], out / name)
 
 
+def rows_of(rows, column):
+    """{value: rows with it}, in the order of the rows."""
+    found = {}
+    for row in rows:
+        found.setdefault(row[column], []).append(row)
+    return found
+
+
+def grid(count, width=3.4, height=3.1):
+    columns = min(4, count)
+    lines = -(-count // columns)
+    figure, panels = plt.subplots(lines, columns, figsize=(width * columns, height * lines + 0.3), squeeze=False, layout="constrained")
+    for panel in panels.flat[count:]:
+        panel.set_visible(False)
+    return figure, panels
+
+
+def draw_coulomb_shapes(rows, out):
+    """Error against time of every shape of the tree, one panel a set of charges; what the program chose stands out."""
+    ways = {
+        "chain": dict(color="#31688e", marker="o", label="chain, any order and opening"),
+        "space": dict(color="#edae49", marker="s", label="space"),
+        "Barnes-Hut": dict(color="#999999", marker="^", label="Barnes-Hut"),
+        "chosen": dict(color="#d1495b", marker="D", label="chosen for an accuracy", linestyle="-", linewidth=1),
+    }
+    sets = rows_of(rows, "charges")
+    figure, panels = grid(len(sets))
+    for (name, some), panel in zip(sets.items(), panels.flat):
+        for way, of_way in rows_of(some, "way").items():
+            u = np.array([number(row["time [ns/point]"]) for row in of_way])
+            v = np.array([number(row["error"]) for row in of_way])
+            good = v > 1e-14
+            panel.loglog(u[good], v[good], **{"linestyle": "none", "markersize": 3.5, **ways[way]})
+        panel.set(title=f"{name}, {int(some[0]['N']):,} points", xlabel="time (ns a point, one thread)")
+        panel.title.set_fontsize(9)
+    for line in panels:
+        line[0].set_ylabel("relative L2 error of the field")
+    finish(figure, panels.flat, out / "coulomb_error_against_time.png")
+
+
+def draw_coulomb_accuracy(rows, out):
+    """What came of each accuracy asked for: the error, and how much faster than the direct sum."""
+    rows = [row for row in rows if row["tree"] != '"direct"' and number(row["order"]) > 0]
+    sizes = list(rows_of(rows, "N").items())
+    figure, panels = plt.subplots(2, len(sizes), figsize=(4.0 * len(sizes), 6.4), squeeze=False, sharex=True, layout="constrained")
+    for (n, of_size), (error, gain) in zip(sizes, panels.T):
+        for (name, some), colour in zip(rows_of(of_size, "charges").items(), plt.cm.tab10.colors):
+            u = [number(row["accuracy"]) for row in some]
+            look = dict(color=colour, marker="o", markersize=4, linewidth=1.2, label=name)
+            error.loglog(u, [number(row["error"]) for row in some], **look)
+            gain.loglog(u, [number(row["direct / tree"]) for row in some], **look)
+        ends = np.array(error.get_xlim())
+        error.plot(ends, ends, color="0.4", linewidth=0.8, linestyle=":", scalex=False, scaley=False)
+        gain.axhline(1, color="0.4", linewidth=0.8, linestyle=":")
+        error.set_title(f"{int(n):,} points")
+        gain.set_xlabel("accuracy asked for")
+    panels[0, 0].set_ylabel("relative L2 error (dotted: the promise)")
+    panels[1, 0].set_ylabel("time of the direct sum / time of the tree")
+    finish(figure, panels.flat, out / "coulomb_accuracy.png")
+
+
+def draw_coulomb_crossover(rows, out):
+    paths = rows_of(rows, "vectors")
+    figure, panels = grid(len(paths), width=4.2, height=3.8)
+    for (path, some), panel in zip(paths.items(), panels.flat):
+        for (name, of_set), colour in zip(rows_of(some, "charges").items(), plt.cm.tab10.colors):
+            panel.loglog([number(row["accuracy"]) for row in of_set], [number(row["measured"]) for row in of_set],
+                         color=colour, marker="o", markersize=4, linewidth=1.2, label=f"measured, {name}")
+        one = next(iter(rows_of(some, "charges").values()))
+        panel.loglog([number(row["accuracy"]) for row in one], [number(row["table"]) for row in one], color="0.2",
+                     linestyle="--", linewidth=1.2, label="shipped table")
+        panel.set(title=path, xlabel="accuracy")
+    panels[0, 0].set_ylabel("points at which the tree becomes faster")
+    finish(figure, panels.flat, out / "coulomb_crossover.png")
+
+
+def draw_coulomb_growth(rows, out):
+    accuracies = rows_of(rows, "accuracy")
+    figure, panels = grid(len(accuracies))
+    for (accuracy, some), panel in zip(accuracies.items(), panels.flat):
+        n = sorted({number(row["N"]) for row in some})
+        direct = [np.mean([number(row["direct [s]"]) for row in some if number(row["N"]) == size]) for size in n]
+        panel.loglog(n, direct, color="0.2", linestyle="--", linewidth=1.2, label="direct sum")
+        for (name, of_set), colour in zip(rows_of(some, "charges").items(), plt.cm.tab10.colors):
+            panel.loglog([number(row["N"]) for row in of_set], [number(row["time [s]"]) for row in of_set], color=colour,
+                         marker="o", markersize=4, linewidth=1.2, label=name)
+        panel.set(title=f"accuracy {accuracy}", xlabel="number of points N")
+    panels[0, 0].set_ylabel("time of an evaluation (s, one thread)")
+    finish(figure, panels.flat, out / "coulomb_growth.png")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("tables", metavar="DIR", type=Path, help="where treejet-validate wrote its tables")
@@ -204,6 +296,10 @@ def main():
         ("work_precision", [draw_work_precision, draw_convergence]),
         ("stable_steps", [draw_stable_steps]),
         ("scaling", [draw_scaling]),
+        ("coulomb_accuracy", [draw_coulomb_accuracy]),
+        ("coulomb_shapes", [draw_coulomb_shapes]),
+        ("coulomb_crossover", [draw_coulomb_crossover]),
+        ("coulomb_growth", [draw_coulomb_growth]),
     ):
         path = options.tables / f"{name}.csv"
         if not path.exists():

@@ -81,7 +81,7 @@ std::vector<std::vector<double>> recorded(Run<D>& run, const std::vector<std::st
   const Parameters& p = run.parameters;
   std::vector<std::vector<double>> rows;
   Recorder<D> recorder({run.scene.nozzle, run.scene.collector, run.unit, p.nozzle_cross, p.collector_distance,
-                        window / run.unit.time, end / run.unit.time});
+                        window / run.unit.time, end / run.unit.time, run.scene.force_error()});
   recorder.add(keys, std::make_unique<Keep>(rows));
   others.push_back(&recorder);
   run.to(end, others);

@@ -29,4 +29,11 @@ void study_scaling(Report& report);
 /// Decks and states at the edge of what can be simulated: a right answer or a clear stop.
 void study_extreme_cases(Report& report);
 
+/// The Coulomb field with nothing but the accuracy given; all shapes of the tree against the program's
+/// choice.
+void study_coulomb_accuracy(Report& report);
+
+/// Crossover with the direct sum, and growth with the number of points.
+void study_coulomb_cost(Report& report);
+
 }  // namespace treejet

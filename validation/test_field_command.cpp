@@ -30,9 +30,9 @@ TEST_CASE("The field command reads columns in any order and writes the field bes
   std::ifstream out(command.out);
   std::string line;
   std::getline(out, line);
-  CHECK(line == "x,y,z,q,ex,ey,ez");
+  CHECK(line == "x,y,z,q,ex,ey,ez,potential");
   std::getline(out, line);
-  CHECK(line == "0,0,0,2,-1.5,0,0");
+  CHECK(line == "0,0,0,2,-1.5,0,0,3");
 }
 
 TEST_CASE("A table that is wrong is refused with its line") {

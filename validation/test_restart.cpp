@@ -54,12 +54,14 @@ template <int D>
 bool march(const Deck& deck, const fs::path& directory, std::function<Wish()> wish, Checkpoint* from,
            int threads) {
   Scene<D> scene = compose<D>(deck.parameters, {threads});
-  Simulation<D> simulation(
-      deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
-      {{directory, OutputFile::Existing::keep, true}, this_program, std::move(wish), from});
+  Simulation<D> simulation(deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
+                           {{directory, OutputFile::Existing::keep, true, false, {}, {}, scene.force_error()},
+                            this_program,
+                            std::move(wish),
+                            from});
   const bool arrived = simulation.finish();
   if (deck.parameters.coulomb != CoulombSum::direct)
-    CHECK_FALSE(scene.motion->coulomb()->solver()->report().direct);
+    CHECK(scene.motion->coulomb()->error()->method.starts_with("tree"));
   return arrived;
 }
 

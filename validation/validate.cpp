@@ -31,12 +31,16 @@ int run(const std::string& study, const std::string& directory, bool quick) {
     treejet::study_restart(report);
   } else if (study == "scaling") {
     treejet::study_scaling(report);
-  } else {
+  } else if (study == "stability") {
     treejet::study_stiffness(report);
     treejet::study_extreme_cases(report);
+  } else {
+    treejet::study_coulomb_accuracy(report);
+    treejet::study_coulomb_cost(report);
   }
   const int failures = report.conclude("checks_" + study);
-  if (study != "restart" && draw(directory) != 0) fmt::print(stderr, "treejet-validate: the pictures could not be drawn\n");
+  if (study != "restart" && draw(directory) != 0)
+    fmt::print(stderr, "treejet-validate: the pictures could not be drawn\n");
   if (failures > 0) fmt::print("\n{} claims do not hold\n", failures);
   return failures > 0 ? 1 : 0;
 }
@@ -53,7 +57,9 @@ int main(int argc, char** argv) {
        {std::pair{"time", "Error against work, orders of convergence, time reversal"},
         std::pair{"stability", "Largest stable steps, extreme cases"},
         std::pair{"restart", "Runs killed at random moments and resumed"},
-        std::pair{"scaling", "Speedup and efficiency of ranks and threads"}}) {
+        std::pair{"scaling", "Speedup and efficiency of ranks and threads"},
+        std::pair{"coulomb",
+                  "The Coulomb field: error against time, crossover with the direct sum, growth"}}) {
     auto& command = *app.add_subcommand(study, meaning);
     command.add_option("--out", directory, "directory of tables and pictures, made if missing")
         ->capture_default_str();
