@@ -12,6 +12,9 @@ failures=0
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
 export OMP_WAIT_POLICY=passive OMP_DYNAMIC=false
 
+# What the MPI library leaves allocated is not ours.
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
+
 fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
 is() { [ "$2" = "$3" ] || fail "$1: expected '$3', found '$2'"; }
 on() { ranks=$1; shift; timeout 60 "$mpiexec" "$flag" "$ranks" "$@"; }
@@ -107,8 +110,9 @@ ends() {
 }
 
 pvp=$source/examples/pvp/input.dat
-on 3 "$treejet" run "$pvp" --quiet --set "final time 1.d-3" --set "print time 1.d-4" --out few 2>err || fail "more ranks than beads: $(cat err)"
-"$treejet" run "$pvp" --quiet --set "final time 1.d-3" --set "print time 1.d-4" --out alone
+set -- run "$pvp" --quiet --set "final time 1.d-3" --set "print time 1.d-4" --set "cutoff 0.02"
+on 5 "$treejet" "$@" --out few 2>err || fail "more ranks than beads: $(cat err)"
+"$treejet" "$@" --out alone
 cmp -s few/statdat.dat alone/statdat.dat || fail "more ranks than beads: other numbers"
 is "versions that three ranks print" "$(on 3 "$treejet" --version | wc -l | tr -d ' ')" 1
 
