@@ -60,14 +60,25 @@ const Spelling* longest(std::span<const std::string> line, Wanted wanted) {
   return best;
 }
 
+/// `coulomb tree` is the directive coulomb with its value tree, `coulomb tree chain` is another directive:
+/// where the longest spelling leaves no value, a shorter one counts that does.
+const Spelling* with_value(std::span<const std::string> line, const Spelling* longest_one) {
+  if (!longest_one || !longest_one->directive || longest_one->words < line.size()) return longest_one;
+  const Spelling* shorter = longest(
+      line, [&](const Spelling& s) { return s.directive != nullptr && s.words < longest_one->words; });
+  Parameters scratch;
+  const bool counts = shorter && assign(*shorter->directive, line.subspan(shorter->words), scratch).empty();
+  return counts ? shorter : longest_one;
+}
+
 }  // namespace
 
 const Spelling* spelling_at_start(std::span<const std::string> line) {
-  return longest(line, [](const Spelling&) { return true; });
+  return with_value(line, longest(line, [](const Spelling&) { return true; }));
 }
 
 const Spelling* directive_at_start(std::span<const std::string> line) {
-  return longest(line, [](const Spelling& s) { return s.directive != nullptr; });
+  return with_value(line, longest(line, [](const Spelling& s) { return s.directive != nullptr; }));
 }
 
 const Spelling* nearest_spelling(std::span<const std::string> line, std::size_t words) {
