@@ -91,7 +91,7 @@ class Relations {
     error(tree && p_.cutoff.has_value(), {"coulomb", "cutoff"},
           "expected no cutoff: the tree sums over all pairs");
     for (const char* detail : {"coulomb accuracy", "coulomb order", "coulomb opening", "coulomb leaf",
-                               "coulomb sorting", "coulomb expansions"})
+                               "coulomb tree", "coulomb expansions"})
       note(!tree && is_given(detail), detail, "no effect without coulomb tree or coulomb auto");
   }
 

@@ -108,7 +108,7 @@ const Directive table[] = {
      .meaning = "opening of the tree, cell radii over distance", .absent = "chosen by the program"},
     {.words = "coulomb leaf", .member = &P::coulomb_leaf, .check = a_leaf,
      .meaning = "beads in a leaf", .absent = "chosen by the program"},
-    {.words = "coulomb sorting", .member = &P::coulomb_tree,
+    {.words = "coulomb tree", .member = &P::coulomb_tree,
      .meaning = "order of the beads in the tree: along the chain, or in space"},
     {.words = "coulomb expansions", .member = &P::coulomb_expansions,
      .meaning = "local: dual tree with local expansions; none: Barnes and Hut's, cells on beads"},

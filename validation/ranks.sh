@@ -75,7 +75,7 @@ multirate no" "tolerance 1.d-6
 integrator kencarp5" "$fixed
 events step"; do
     for sum in "coulomb direct" "$tree" "$tree
-coulomb sorting space" "$tree
+coulomb tree space" "$tree
 coulomb expansions none" "cutoff 0.1"; do
       # shellcheck disable=SC2086  # a list of words
       scene "$steps
@@ -94,7 +94,7 @@ multirate no" 5x2
   scene "tolerance 1.d-6
 multirate no
 $tree
-coulomb sorting space" 3x1
+coulomb tree space" 3x1
 fi
 
 [ "$extent" = all ] && exit $((failures > 0))

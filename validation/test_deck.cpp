@@ -495,6 +495,11 @@ TEST_CASE("Each way of the Coulomb sum can be named: no value hides behind a lon
                                   std::pair{"coulomb tree", CoulombSum::tree},
                                   std::pair{"coulomb auto", CoulombSum::automatic}})
     CHECK(parse_deck(altered("", line), name).parameters.coulomb == sum);
+
+  const Parameters both = parse_deck(altered("", "coulomb tree\ncoulomb tree space"), name).parameters;
+  CHECK(both.coulomb == CoulombSum::tree);
+  CHECK(both.coulomb_tree == TreeOrder::space);
+  CHECK_THROWS_WITH(parse_deck(altered("", "coulomb tree spcae"), name), Catch::Contains("space"));
 }
 
 TEST_CASE("No two directives share a spelling, and no two observables a key", "[deck]") {

@@ -107,7 +107,7 @@ std::vector<Case> cases() {
                                              "collector distance 30.0001", "coulomb tree",
                                              "coulomb accuracy 1.d-2"};
   auto fixed_tree = long_jet, two_rate_tree = long_jet;
-  fixed_tree.insert(fixed_tree.end(), {"coulomb sorting space", "integrator 2", "timestep 5.d-8"});
+  fixed_tree.insert(fixed_tree.end(), {"coulomb tree space", "integrator 2", "timestep 5.d-8"});
   two_rate_tree.insert(two_rate_tree.end(), {"tolerance 1.d-3"});
   return {output_often("pvp", 1e-3, {"points 120", "initial length 2.4", "collector distance 2.45"}),
           output_often("pvp", 2e-3, {near, "integrator dopri5", "multirate no"}),
