@@ -89,6 +89,7 @@ const Spelling* nearest_spelling(std::span<const std::string> line, std::size_t 
     if (words > 0 && !s.text.starts_with(line[0])) continue;
     if (s.words <= words || (s.words == 1 && first_word_known) || !matches(line, s, resembles)) continue;
     const int distance = edit_distance(first_words(line, s.words), s.text);
+    if (distance == 0) continue;  // not misspelt: passed over by spelling_at_start
     if (!best || distance < least) best = &s, least = distance;
   }
   for (const Spelling& s : spellings())  // blanks forgotten: finaltime, print_time

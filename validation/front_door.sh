@@ -21,7 +21,8 @@ expect() {
 
 # A short run of the PVP jet: 0.5 ms, rows every 0.1 ms, frames of 12 lines every 0.25 ms.
 pvp=$source/examples/pvp/input.dat
-short() { "$treejet" run "$pvp" --threads 1 --set "final time 5.d-4" --set "print time 1.d-4" --set "print xyz 2.5d-4" --set "print xyz maxnum 12" "$@"; }
+threads=1
+short() { "$treejet" run "$pvp" --threads $threads --set "final time 5.d-4" --set "print time 1.d-4" --set "print xyz 2.5d-4" --set "print xyz maxnum 12" "$@"; }
 
 expect 0 "a run" short --out a
 is "files of a run" "$(ls a | tr '\n' ' ')" "run.json statdat.dat traj.xyz "
@@ -54,11 +55,11 @@ cmp -s before set/statdat.dat && fail "--set changed nothing"
 expect 0 "a run without outputs" "$treejet" run "$source/examples/single-bead/input.dat" --quiet --out none --set "final time 1.d-6" --set "print time 1.d-7"
 is "files of a run that asks for statdat.dat only" "$(ls none | tr '\n' ' ')" "run.json statdat.dat "
 
-expect 0 "a run with a tree" short --out tree --set "points 60" --set "coulomb tree" --set "coulomb accuracy 1.d-4" --set "printstat list t n ferr ferrmax"
+expect 0 "a run with a tree" short --out tree --set "points 600" --set "initial length 12" --set "coulomb tree" --set "coulomb accuracy 1.d-4" --set "printstat list t n ferr ferrmax"
 grep -q '^# t = .*tree of order' tree/statdat.dat || fail "statdat.dat does not tell how the forces were computed"
 grep -q '^forces: .*asked for 0.0001' out || fail "the summary does not tell the force error"
 is "warnings of a run with a tree" "$(grep -c warning err)" 0
-expect 0 "a run that misses its accuracy" short --out missed --set "points 60" --set "coulomb tree" --set "coulomb accuracy 1.d-9" --set "coulomb order 2" --set "coulomb opening 0.9"
+expect 0 "a run that misses its accuracy" short --out missed --set "points 600" --set "initial length 12" --set "coulomb tree" --set "coulomb accuracy 1.d-9" --set "coulomb order 2" --set "coulomb opening 0.9"
 grep -q 'warning.*accuracy' err || fail "a missed accuracy is not warned of"
 grep -q 'ACCURACY MISSED' out || fail "the summary does not tell of a missed accuracy"
 
@@ -85,7 +86,7 @@ fi
 
 # A run of some tenths of a second that is stopped, or disturbed, once it has written a few rows.
 long() { "$treejet" run "$pvp" --quiet --set "final time 4.d-2" --set "print time 1.d-4" --set "print xyz 2.d-4" "$@"; }
-begun() { until [ -e "$1/statdat.dat" ] && [ "$(wc -l <"$1/statdat.dat")" -gt 9 ]; do sleep 0.01; done; }
+begun() { until [ -e "$1/statdat.dat" ] && [ "$(grep -vc "^#" "$1/statdat.dat")" -gt 9 ]; do sleep 0.01; done; }
 same() { for file in statdat.dat traj.xyz; do cmp -s "whole/$file" "$1/$file" || fail "$file of $2 differs from the uninterrupted run's"; done; }
 
 expect 0 "a run left alone" long --out whole
@@ -119,10 +120,14 @@ grep -q 'late/checkpoint: cut short' err || fail "the message does not tell what
 is "exit code with the disk full" $? 4
 grep -q 'filled/.*: writing failed: File too large' err || fail "the message does not name the file: $(cat err)"
 for file in statdat.dat traj.xyz; do
-  head -c "$(wc -c <filled/$file)" whole/$file | cmp -s - filled/$file || fail "$file was damaged when the disk was full"
+  sed '/^##/d' filled/$file >left  # the decks differ in the checkpoints
+  sed '/^##/d' whole/$file | head -c "$(wc -c <left)" | cmp -s - left || fail "$file was damaged when the disk was full"
 done
 expect 0 "going on with room on the disk" "$treejet" run --resume filled --quiet
-same filled "a run that had filled the disk"
+for file in statdat.dat traj.xyz; do
+  sed '/^##/d' filled/$file >left
+  sed '/^##/d' whole/$file | cmp -s - left || fail "$file of a run that had filled the disk differs from the uninterrupted run's"
+done
 
 long --out removed 2>err &
 begun removed
@@ -141,7 +146,9 @@ grep -qi nan stopped/statdat.dat && fail "statdat.dat holds NaN"
 hdf5() { short --quiet --set "print hdf5 1.d-4" "$@"; }
 expect 0 "a run with print hdf5" hdf5 --out h5
 is "files of a run with print hdf5" "$(ls h5 | tr '\n' ' ')" "run.json statdat.dat traj.h5 traj.xdmf traj.xyz "
-expect 0 "the same again on two threads" hdf5 --out h5again --threads 2
+threads=2
+expect 0 "the same again on two threads" hdf5 --out h5again
+threads=1
 for file in statdat.dat traj.h5 traj.xdmf traj.xyz; do
   cmp -s h5/$file h5again/$file || fail "$file differs from run to run"
 done

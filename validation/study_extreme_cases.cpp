@@ -115,6 +115,7 @@ std::string fault_of_table(const std::filesystem::path& file, double t_end, doub
   std::getline(in, header);
   double t = 0;
   while (std::getline(in, line)) {
+    if (line.starts_with('#')) continue;
     std::istringstream fields(line);
     double x;
     if (in.eof() || !(fields >> t >> x) || !std::isfinite(x)) return "its table has a broken line: " + line;
