@@ -156,7 +156,9 @@ TEST_CASE("By Newton's third law the field is the same to round-off for any numb
       const Points<1> line = random_points<1>(n, 400u + static_cast<unsigned>(n));
       CAPTURE(n);
       CHECK(relative_difference(p, mutual(p, path)) < 2e-15);  // as above
-      CHECK(relative_difference(line, mutual(line, path)) < 2e-15);
+      // on a line a close pair outweighs the hundreds of terms added to it, each rounded at its size: against
+      // long double both sums, the plain one too, are off by up to 4e-15
+      CHECK(relative_difference(line, mutual(line, path)) < 1e-14);
     }
     Points<3> meeting = random_points<3>(40, 5);
     for (auto& x : meeting.r) x[35] = x[3];
