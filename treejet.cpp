@@ -41,20 +41,9 @@ Threads threads(const Arguments& a, const Ranks& ranks) {
   return threads;
 }
 
-/// Ranks that do not do the same arithmetic would drift apart.
-void require_same(const Ranks& ranks, const Deck& deck) {
-  std::string text = deck.text;
-  for (const auto& o : deck.overrides) text += "\n" + o;
-  if (!ranks.agree(version_text()))
-    throw LaunchError(
-        "the ranks differ in program or vectors; TREEJET_VECTOR_PATH=avx2 in the environment of "
-        "all makes the vectors of different processors alike");
-  if (!ranks.agree(text)) throw LaunchError(fmt::format("the ranks have read different decks {}", deck.name));
-}
-
 template <int D>
 int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* checkpoint) {
-  require_same(ranks, deck);
+  ranks.require_same(version_text(), deck_description(deck.name, deck.text, deck.overrides));
   const Parameters& p = deck.parameters;
   const Threads each = threads(a, ranks);
   const std::string directory = checkpoint ? a.resume : a.out;

@@ -1,8 +1,6 @@
 #include "core/checkpoint.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 
 namespace treejet {
 
@@ -29,22 +28,6 @@ struct Seal {
 
 std::uint64_t checksum(std::string_view bytes) {
   return crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
-}
-
-void put_in_place(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::rename(from, to, error);
-  if (error)
-    throw FileError(fmt::format("{}: cannot become {}: {}", from.string(), to.string(), error.message()));
-}
-
-/// Names are entries of the directory, which has to reach the disk as well.
-void sync_directory(const fs::path& directory) {
-  const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool failed = descriptor < 0 || (::fsync(descriptor) != 0 && errno != EINVAL);
-  const int reason = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  if (failed) throw FileError(fmt::format("{}: {}", directory.string(), std::strerror(reason)));
 }
 
 std::string contents(const fs::path& file) {
@@ -138,7 +121,7 @@ void Checkpoints::write(Checkpoint& checkpoint) const {
   std::error_code error;
   if (fs::exists(directory_ / newest, error)) put_in_place(directory_ / newest, directory_ / older);
   put_in_place(directory_ / unfinished, directory_ / newest);
-  sync_directory(directory_);
+  force_to_disk(directory_);
 }
 
 void Checkpoints::remove() const {

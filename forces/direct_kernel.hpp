@@ -42,11 +42,8 @@ struct DirectBlock {
     Pack reaction[D]{};
 #pragma GCC unroll 8
     for (int g = 0; g < groups; ++g) {
-      Pack d[D], d2{};
-      for (int k = 0; k < D; ++k) {
-        d[k] = r[k][g] - source[k][j];
-        d2 += d[k] * d[k];
-      }
+      Pack d[D];
+      const Pack d2 = separation(source, j, g, d);
       const Pack w = Isa::over_cube(1, d2), by_source = q * w, by_target = own[g] * w;
       for (int k = 0; k < D; ++k) {
         e[k][g] += by_source * d[k];
@@ -54,6 +51,16 @@ struct DirectBlock {
       }
     }
     for (int k = 0; k < D; ++k) back[k] -= reaction[k];
+  }
+
+  /// d = r_i - r_j of a group of targets; the result is its square.
+  Pack separation(const T* const* source, int j, int g, Pack (&d)[D]) const {
+    Pack d2{};
+    for (int k = 0; k < D; ++k) {
+      d[k] = r[k][g] - source[k][j];
+      d2 += d[k] * d[k];
+    }
+    return d2;
   }
 
   void store(T* const* field, int first, Rows rows) const {
@@ -80,11 +87,8 @@ struct DirectBlock {
   void add(const T* const* source, T q, int j, int self) {
 #pragma GCC unroll 8
     for (int g = 0; g < groups; ++g) {
-      Pack d[D], d2{};
-      for (int k = 0; k < D; ++k) {
-        d[k] = r[k][g] - source[k][j];
-        d2 += d[k] * d[k];
-      }
+      Pack d[D];
+      const Pack d2 = separation(source, j, g, d);
       Pack w = Isa::over_cube(q, d2);
       if (own) w = count_from<T, lanes>(g * lanes) == self ? Pack{} : w;
       for (int k = 0; k < D; ++k) e[k][g] += w * d[k];

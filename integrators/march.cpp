@@ -16,6 +16,10 @@ namespace {
 constexpr double dense_fraction = 0.01;
 /// Events closer than this fraction of l_step to being due, when another has just happened, are due.
 constexpr double simultaneous = 1e-12;
+
+void halt_if(const std::optional<std::string>& trouble, double t) {
+  if (trouble) throw NumericalError(fmt::format("at scaled time {}: {}", t, *trouble));
+}
 }  // namespace
 
 template <int D>
@@ -158,9 +162,7 @@ void March<D>::start() {
   now_.y = parts_.jet.y;
   for (auto* w : parts_.watchers) w->start(parts_.jet);
   evaluate(now_);
-  if (auto what = not_finite<D>(now_.y, now_.slope, parts_.jet.removed)) {
-    throw NumericalError(fmt::format("at scaled time {}: {}", now_.t, *what));
-  }
+  halt_if(not_finite<D>(now_.y, now_.slope, parts_.jet.removed), now_.t);
   under_way_ = true;
 }
 
@@ -170,9 +172,7 @@ bool March<D>::to(double end) {
   while (now_.t < end && now_.y.rows() > 0) {
     if (parts_.pause && parts_.pause()) return false;
     const double reach = attempt(end);
-    if (auto what = trouble<D>(now_.y, next_.y, parts_.jet.removed)) {
-      throw NumericalError(fmt::format("at scaled time {}: {}", next_.t, *what));
-    }
+    halt_if(trouble<D>(now_.y, next_.y, parts_.jet.removed), next_.t);
     evaluate(next_);
     if (parts_.events == EventRule::step) {
       commit(std::nullopt);

@@ -70,7 +70,7 @@ class March {
   std::optional<Due> located_event(double reach);
   double overdue(bool insertion, const Table<D>& y, double t) const;
   double overdue(bool insertion, const Segment<D>& segment, double t);
-  double predicted_event(double from_now) const;
+  double predicted_event(double horizon) const;
   std::optional<Due> first_event(const Segment<D>& segment, double reach);
   double zero(bool insertion, const Segment<D>& segment, double a, double b);
   void commit(std::optional<Due> due);

@@ -16,6 +16,14 @@ std::vector<int> Ranks::borders(Rows rows, int block) const {
   return borders;
 }
 
+void Ranks::require_same(const std::string& program, const std::string& deck) const {
+  if (!agree(program))
+    throw LaunchError(
+        "the ranks differ in program or vectors; TREEJET_VECTOR_PATH=avx2 in the environment of "
+        "all makes the vectors of different processors alike");
+  if (!agree(deck)) throw LaunchError("the ranks have read different decks");
+}
+
 std::string Ranks::crowding(Threads threads) const {
   const std::vector<Crowd> all = crowds(threads);
   Crowd worst = {0, 1};

@@ -7,9 +7,9 @@
 /// heard: the standard output of the others leads nowhere.
 ///
 /// A Ranks is a value. Copies stand for the same rank; a default one is alone and sends nothing. What sends
-/// (join_ranks, gather, times, agree, greatest, threads_each, crowding) is called by all ranks in the same order, by
-/// their main threads. The only mpi.h is in ranks_mpi.cpp; ranks_alone.cpp stands in for it where there is no
-/// MPI.
+/// (join_ranks, gather, times, agree, require_same, greatest, threads_each, crowding) is called by all ranks
+/// in the same order, by their main threads. The only mpi.h is in ranks_mpi.cpp; ranks_alone.cpp stands in
+/// for it where there is no MPI.
 
 #include <cstdint>
 #include <memory>
@@ -56,6 +56,9 @@ class Ranks {
 
   /// Whether all ranks have the same text.
   bool agree(const std::string& text) const;
+
+  /// LaunchError unless all ranks run the same program on the same deck: else they would drift apart.
+  void require_same(const std::string& program, const std::string& deck) const;
 
   /// The greatest of the ranks' numbers.
   int greatest(int number) const;

@@ -142,6 +142,12 @@ grep -q 'bead' err && grep -q 'time' err && grep -q 'likely cause' err || fail "
 [ "$(grep -vc '^#' stopped/statdat.dat)" -ge 1 ] || fail "rows before a numerical failure were lost"
 grep -qi nan stopped/statdat.dat && fail "statdat.dat holds NaN"
 
+# What a run leaves can be drawn, where there is matplotlib.
+if /usr/bin/python3 -c 'import matplotlib' 2>/dev/null; then
+  expect 0 "the pictures of a run" /usr/bin/python3 "$source/validation/plot_run.py" a --out drawn
+  is "pictures of a run" "$(ls drawn | tr '\n' ' ')" "history.png jet.png "
+fi
+
 # The HDF5 trajectory, and what else it can become.
 hdf5() { short --quiet --set "print hdf5 1.d-4" "$@"; }
 expect 0 "a run with print hdf5" hdf5 --out h5

@@ -147,14 +147,14 @@ def draw_jet(time, r, target):
     finish(figure, target)
 
 
-# --- statdat.dat: `# key[unit] ...`, then one row a print time
+# --- statdat.dat: `# key[unit] ...`, then one row a print time, and remarks that begin with #
 
 
 def draw_history(path, target):
     with open(path, encoding="utf-8", errors="replace") as file:
         header = file.readline()
         keys = [re.sub(r"\[.*", "", word) for word in re.findall(r"[^\s\[]+(?:\[[^\]]*\])?", header.lstrip("#"))]
-        rows = [line.split() for line in file if line.strip() and line.endswith("\n")]
+        rows = [line.split() for line in file if line.strip() and not line.startswith("#") and line.endswith("\n")]
     if not header:
         raise Unreadable(f"{path}: is empty")
     if not header.startswith("#") or not keys:

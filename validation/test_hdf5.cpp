@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/file_info.hpp"
 #include "core/trajectory_file.hpp"
+#include "validation/scratch_directory.hpp"
 
 using namespace treejet;
 namespace fs = std::filesystem;
@@ -16,24 +17,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Existing = OutputFile::Existing;
-
-/// A directory of its own, gone with the test.
-struct Place {
-  Place() {
-    static int number = 0;
-    path = fs::temp_directory_path() / fmt::format("treejet-hdf5-{}-{}", ::getpid(), number++);
-    fs::create_directories(path);
-  }
-  ~Place() { fs::remove_all(path); }
-  fs::path path;
-};
-
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 /// Points come and go: up to 300 of them, more than a chunk of a growing file holds, in no order of size.
 Frame frame_of(int k) {

@@ -10,6 +10,7 @@
 #include "core/resumption.hpp"
 #include "forces/scene.hpp"
 #include "integrators/simulation.hpp"
+#include "validation/scratch_directory.hpp"
 
 using namespace treejet;
 namespace fs = std::filesystem;
@@ -17,24 +18,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* this_program = "this program";
-
-/// A directory of its own, gone with the test.
-struct Place {
-  Place() {
-    static int number = 0;
-    path = fs::temp_directory_path() / fmt::format("treejet-restart-{}-{}", ::getpid(), number++);
-    fs::create_directories(path);
-  }
-  ~Place() { fs::remove_all(path); }
-  fs::path path;
-};
-
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 void overwrite(const fs::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
