@@ -8,7 +8,8 @@ namespace treejet {
 
 namespace {
 
-/// The element below a bead: tangent, inverse length and strain rate from d = r_i - r_up and w = v_i - v_up.
+/// The element of a bead, up to its upper neighbour: tangent, inverse length and strain rate from d = r_i -
+/// r_up and w = v_i - v_up.
 template <int D>
 struct Elements {
   std::array<double*, D> tangent;

@@ -45,8 +45,9 @@ void coulomb_direct(const PointCharges<D>& points, Rows rows, const FieldArrays<
 void coulomb_direct_with_potential(const PointCharges<3>& points, Rows rows, const FieldArrays<3>& field,
                                    double* potential, VectorPath path);
 
-/// The whole field of at most few_points charges, each pair worked out once by Newton's third law: a third
-/// faster, but rows are no longer independent of each other, so that one worker has to do all of it.
+/// The whole field of at most few_points charges, each pair worked out once by Newton's third law: a fifth
+/// less work of the kernel, but rows are no longer independent of each other, so that one worker has to do
+/// all of it.
 template <int D>
 void coulomb_mutual(const PointCharges<D>& points, const FieldArrays<D>& field);
 template <int D>
