@@ -8,7 +8,7 @@ cd "$(dirname "$0")"
 for_building="g++ cmake ninja-build libeigen3-dev libfmt-dev libcli11-dev zlib1g-dev libhdf5-dev nlohmann-json3-dev
   libopenmpi-dev openmpi-bin"
 for_pictures="python3-matplotlib"
-for_tests="catch2 libsundials-dev hdf5-tools python3-h5py python3-ase"
+for_tests="catch2 libfftw3-dev libsundials-dev hdf5-tools python3-h5py python3-ase python3-matplotlib python3-jinja2"
 
 log=build/do.log
 

@@ -4,7 +4,6 @@
 
 #include <ctime>
 
-#include "core/deck.hpp"
 #include "core/error.hpp"
 #include "core/outputs.hpp"
 #include "forces/scene.hpp"
@@ -100,10 +99,6 @@ Outcome run(const Parameters& p, const Setup& setup) {
 }
 
 }  // namespace
-
-Parameters example(const std::string& name, const std::vector<std::string>& overrides) {
-  return read_deck(fmt::format("{}/examples/{}/input.dat", TREEJET_SOURCE_DIR, name), overrides).parameters;
-}
 
 Parameters with(Parameters p, const Method& method) {
   p.integrator = method.scheme;

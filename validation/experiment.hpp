@@ -11,6 +11,7 @@
 
 #include "core/parameters.hpp"
 #include "integrators/march.hpp"
+#include "validation/example.hpp"
 
 namespace treejet {
 
@@ -51,9 +52,6 @@ struct Outcome {
   double x() const { return position(0, 0); }  ///< of the oldest bead, along the axis
   double yz() const { return position.row(0).tail(2).matrix().norm(); }  ///< and off the axis
 };
-
-/// Parameters of a deck in examples/, with some of its directives replaced.
-Parameters example(const std::string& name, const std::vector<std::string>& overrides = {});
 
 Parameters with(Parameters p, const Method& method);
 

@@ -33,11 +33,12 @@ Cell::Cell(const std::string& text) : shown(text), written(quoted(text)) {}
 
 ResultTable::ResultTable(const std::filesystem::path& directory, const std::string& name,
                          const std::string& title, std::vector<std::string> columns)
-    : columns_(std::move(columns)) {
+    : shown_(!title.empty()), columns_(std::move(columns)) {
   const auto path = directory / (name + ".csv");
   file_.open(path);
   file_ << fmt::format("{}\n", fmt::join(columns_, ","));
   if (!file_) throw FileError(path.string() + ": cannot be written");
+  if (!shown_) return;
   fmt::print("\n{}\n", title);
   for (const auto& c : columns_) fmt::print("  {:<{}}", c, width(c));
   fmt::print("\n");
@@ -46,10 +47,10 @@ ResultTable::ResultTable(const std::filesystem::path& directory, const std::stri
 void ResultTable::row(const std::vector<Cell>& cells) {
   std::vector<std::string> fields;
   for (std::size_t k = 0; k < cells.size(); ++k) {
-    fmt::print("  {:<{}}", cells[k].shown, width(columns_[k]));
+    if (shown_) fmt::print("  {:<{}}", cells[k].shown, width(columns_[k]));
     fields.push_back(cells[k].written);
   }
-  fmt::print("\n");
+  if (shown_) fmt::print("\n");
   std::fflush(stdout);
   file_ << fmt::format("{}\n", fmt::join(fields, ",")) << std::flush;
 }
@@ -61,13 +62,32 @@ Report::Report(std::filesystem::path directory, bool quick_study)
   if (error) throw FileError(fmt::format("{}: {}", directory_.string(), error.message()));
 }
 
+void Report::section(const Section& section) {
+  sections_.push_back(section);
+  fmt::print("\n=== {}\n", section.title);
+}
+
 ResultTable Report::table(const std::string& name, const std::string& title,
-                          std::vector<std::string> columns) const {
+                          std::vector<std::string> columns) {
+  tables_.push_back({sections_.empty() ? "" : sections_.back().title, name, title});
   return ResultTable(directory_, name, title, std::move(columns));
 }
 
 void Report::check(const std::string& claim, double found, double low, double high) {
-  claims_.push_back({claim, found, low, high});
+  add({"", claim, found, low, high, std::nan(""), "", false});
+}
+
+void Report::compare(const std::string& claim, double found, const Elsewhere& e) {
+  add({"", claim, found, e.value - e.allowed, e.value + e.allowed, e.value, e.source, false});
+}
+
+void Report::differs(const std::string& claim, double found, const Difference& d) {
+  add({"", claim, found, d.low, d.high, d.elsewhere, d.explanation, true});
+}
+
+void Report::add(Claim claim) {
+  if (!sections_.empty()) claim.section = sections_.back().title;
+  claims_.push_back(std::move(claim));
 }
 
 void Report::progress(const std::string& study, int done, int runs) {
@@ -80,10 +100,18 @@ void Report::progress(const std::string& study, int done, int runs) {
              duration_text(since * (runs - done) / std::max(done, 1)));
 }
 
-int Report::conclude(const std::string& name) const {
-  auto checks = table(name, "Checks", {"verdict", "found", "at least", "at most", "claim"});
+int Report::conclude() {
+  ResultTable contents(directory_, "sections", "", {"section", "asked", "reproduce"});
+  for (const Section& s : sections_) contents.row({s.title, s.asked, s.reproduce});
+  ResultTable tables(directory_, "tables", "", {"section", "table", "title"});
+  for (const Entry& e : tables_) tables.row({e.section, e.table, e.title});
+  ResultTable checks(directory_, "checks", "",
+                     {"section", "verdict", "claim", "found", "elsewhere", "at least", "at most", "remark"});
+  fmt::print("\n=== Claims: verdict, what was found, where it must be\n");
   for (const Claim& c : claims_) {
-    checks.row({std::string(c.holds() ? "holds" : "FAILS"), c.found, c.low, c.high, c.text});
+    checks.row({c.section, c.verdict(), c.text, c.found, c.elsewhere, c.low, c.high, c.remark});
+    fmt::print("  {:<18}  {:>10.4g} in [{:.4g}, {:.4g}]  {}\n", c.verdict(), c.found, c.low, c.high, c.text);
+    if (c.explained) fmt::print("{:>20}  elsewhere {:.4g}: {}\n", "", c.elsewhere, c.remark);
   }
   return static_cast<int>(std::count_if(claims_.begin(), claims_.end(), [](auto& c) { return !c.holds(); }));
 }

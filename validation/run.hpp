@@ -5,19 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "core/deck.hpp"
 #include "core/recorder.hpp"
 #include "core/sampling.hpp"
 #include "forces/scene.hpp"
 #include "integrators/choice.hpp"
 #include "integrators/march.hpp"
+#include "validation/example.hpp"
 
 namespace treejet {
-
-/// The deck examples/<name>/input.dat: the paper's cases 1, 2 and 3 are single-bead, straight-jet and pvp.
-inline Parameters example(const std::string& name) {
-  return read_deck(std::string(TREEJET_SOURCE_DIR) + "/examples/" + name + "/input.dat").parameters;
-}
 
 /// The same run by steps of `seconds`; for the pairs too, which a deck would give a tolerance.
 inline Parameters with_steps(Parameters p, Scheme scheme, double seconds) {

@@ -5,6 +5,23 @@
 
 namespace treejet {
 
+/// The paper's figures and tables, case by case.
+void study_single_bead(Report& report);
+void study_straight_jet(Report& report);
+void study_pvp_jet(Report& report);
+
+/// The paper's table of seconds per bead and step.
+void study_performance(Report& report);
+
+/// The spectrum of the whipping, in time and along the axis.
+void study_whipping(Report& report);
+
+/// The steady state of the PVP jet against the length of its elements.
+void study_resolution(Report& report);
+
+/// The same bytes on any number of ranks and threads.
+void study_determinism(Report& report);
+
 /// Error against work for every scheme on the paper's three cases; orders of convergence over insertions and
 /// removals; error against tolerance.
 void study_work_precision(Report& report);

@@ -69,6 +69,10 @@ void shapes(Report& report, ResultTable& table, const NamedSet& kind, int n) {
 }  // namespace
 
 void study_coulomb_accuracy(Report& report) {
+  report.section({"The Coulomb field to a stated error",
+                  "With nothing but the accuracy given: the error that came of it, against the direct sum, "
+                  "on lines, coils, jets and clouds; and all shapes of the tree beside the program's choice.",
+                  "treejet-validate coulomb --out DIR"});
   auto kept = report.table(
       "coulomb_accuracy", "With nothing but the accuracy given, one thread",
       {"charges", "N", "accuracy", "tree", "order", "opening", "leaf", "near field", "expected error",

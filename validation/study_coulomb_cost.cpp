@@ -88,6 +88,10 @@ void growth(Report& report, const std::vector<NamedSet>& kinds) {
 }  // namespace
 
 void study_coulomb_cost(Report& report) {
+  report.section({"The cost of the Coulomb field",
+                  "From which number of points on the tree is faster than the direct sum, and how its time "
+                  "grows with their number.",
+                  "treejet-validate coulomb --out DIR"});
   const auto all = NamedSet::all();
   std::vector<NamedSet> kinds;
   for (const char* wanted : {"whipping jet", "simulated jet", "coil, pitch 1/20"})

@@ -150,6 +150,10 @@ std::string verdict(const Extreme& e, const Outcome& o) {
 }  // namespace
 
 void study_extreme_cases(Report& report) {
+  report.section({"Extreme cases",
+                  "Decks and states at the edge of what can be simulated: a right answer, or a clear stop "
+                  "that leaves its files whole.",
+                  "treejet-validate stability --out DIR"});
   auto table = report.table("extreme_cases", "Extreme cases",
                             {"case", "what happened", "exit code", "t [s]", "message"});
   auto all = extreme_states();

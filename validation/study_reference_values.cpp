@@ -47,6 +47,10 @@ std::vector<Value> values(bool quick) {
 }  // namespace
 
 void study_reference_values(Report& report) {
+  report.section({"The oldest bead in other programs",
+                  "Where JETSPIN and another program that locates events say it is, computed in the same "
+                  "way; and the error of a deck with tolerance 1e-6.",
+                  "treejet-validate time --out DIR"});
   auto table = report.table("reference_values", "The oldest bead in other programs",
                             {"deck", "t [s]", "x there [cm]", "x in the same way [cm]", "difference [cm]",
                              "error at tolerance 1e-6 [cm]", "same, multirate [cm]"});

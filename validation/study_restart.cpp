@@ -168,6 +168,10 @@ class Trial {
 }  // namespace
 
 void study_restart(Report& report) {
+  report.section({"Killed and resumed",
+                  "Runs killed (SIGKILL) at random moments: what is left can be read, and the resumed run "
+                  "ends with the bytes of one that nobody killed.",
+                  "treejet-validate restart --out DIR"});
   const int wanted = report.quick ? 4 : 60;  // kills of a scene
   auto table =
       report.table("restart", "Runs killed (SIGKILL) at random moments and resumed on 1 or 2 threads",

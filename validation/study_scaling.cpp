@@ -120,6 +120,10 @@ class SmallestShare {
 }  // namespace
 
 void study_scaling(Report& report) {
+  report.section({"Speedup and efficiency",
+                  "The paper's two figures: case 3 at several sizes on ranks, threads and both, each worker "
+                  "on a core of its own; more workers than cores show correctness only.",
+                  "treejet-validate scaling --out DIR"});
   const int cores = physical_cores();
   const std::vector<Size> sizes =
       report.quick ? std::vector<Size>{{1, false, 200}, {8, true, 10}}

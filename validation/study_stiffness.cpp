@@ -137,6 +137,11 @@ class StiffnessStudy {
 }  // namespace
 
 void study_stiffness(Report& report) {
+  report.section({"Stiff scenes",
+                  "Case 3 with elements up to 50 times as short, a modulus up to 1000 times as great at the "
+                  "same viscosity, and viscosities up to 1000 times as great: the largest stable step of "
+                  "each explicit scheme, and what a tolerance costs there.",
+                  "treejet-validate stability --out DIR"});
   StiffnessStudy study(report);
   study.fixed_steps();
   study.tolerances();

@@ -184,6 +184,10 @@ class WorkPrecision {
 }  // namespace
 
 void study_work_precision(Report& report) {
+  report.section({"Error against work",
+                  "Every scheme on the three cases, with fixed steps and by error control, events located or "
+                  "seen at step ends; the truth is an independent scheme at the tightest tolerance.",
+                  "treejet-validate time --out DIR"});
   WorkPrecision study(report);
   const auto all = cases(report.quick);
   int done = 0;

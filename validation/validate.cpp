@@ -1,48 +1,112 @@
-/// The front door of the validation harness: which study, where its tables go, whether all its claims hold.
+/// The front door of the validation harness: which studies, where their tables go, whether all claims hold.
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
+#include <fstream>
+#include <numeric>
 
 #include "core/error.hpp"
+#include "core/progress.hpp"
+#include "core/version.hpp"
+#include "forces/coulomb.hpp"
+#include "validation/machine.hpp"
 #include "validation/scaling_run.hpp"
 #include "validation/studies.hpp"
 
 namespace {
 
+using treejet::Report;
+
 constexpr const char* lesson = R"(
-Each study prints tables, writes them to DIR as CSV and draws what can be drawn with validation/plot_validation.py.
+Each study prints tables and claims with their verdicts, writes them to DIR as CSV, draws them and puts all of it into
+DIR/report.html, a page that needs no other file. `all` is the report of a release, `all --quick` that of every change.
 Exit codes: 0 all claims hold, 1 one does not, 2 arguments, 4 files.)";
 
-int draw(const std::string& directory) {
-  const auto command =
-      fmt::format("/usr/bin/python3 '{}/validation/plot_validation.py' '{}'", TREEJET_SOURCE_DIR, directory);
-  std::fflush(stdout);
-  return std::system(command.c_str());
+struct Study {
+  std::string name, meaning;
+  std::vector<void (*)(Report&)> parts;
+  double quick, full;  ///< share of the time of all, as once measured; any unit
+};
+
+const std::vector<Study> studies = {
+    {"paper",
+     "The paper's cases, figure by figure, beside what is published",
+     {treejet::study_single_bead, treejet::study_straight_jet, treejet::study_pvp_jet,
+      treejet::study_performance},
+     15,
+     40},
+    {"whipping", "Frequency and wavelength of the whipping", {treejet::study_whipping}, 1, 10},
+    {"resolution", "Case 3 with longer and shorter elements", {treejet::study_resolution}, 2, 15},
+    {"time",
+     "Error against work, orders of convergence, time reversal",
+     {treejet::study_time_reversal, treejet::study_reference_values, treejet::study_work_precision},
+     23,
+     250},
+    {"stability",
+     "Largest stable steps, extreme cases",
+     {treejet::study_stiffness, treejet::study_extreme_cases},
+     5,
+     60},
+    {"coulomb",
+     "The Coulomb field: error against time, crossover with the direct sum, growth",
+     {treejet::study_coulomb_accuracy, treejet::study_coulomb_cost},
+     20,
+     900},
+    {"scaling", "Speedup and efficiency of ranks and threads", {treejet::study_scaling}, 5, 300},
+    {"determinism", "The same bytes on any number of ranks and threads", {treejet::study_determinism}, 6, 30},
+    {"restart", "Runs killed at random moments and resumed", {treejet::study_restart}, 8, 120}};
+
+/// What made the report and where, a line each.
+void write_provenance(const std::filesystem::path& directory, const std::string& command) {
+  std::ofstream file(directory / "provenance.txt");
+  const auto v = treejet::version();
+  file << fmt::format("treejet {} (git {}), {}, {} build, {} vectors\n", v.number, v.commit, v.compiler,
+                      v.build, treejet::vector_path());
+  file << fmt::format("{}, {} cores\n", treejet::processor_name(), treejet::physical_cores());
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  file << fmt::format("{}, {:%Y-%m-%d %H:%M} UTC\n", command, fmt::gmtime(now));
+  if (!file) throw treejet::FileError((directory / "provenance.txt").string() + ": cannot be written");
 }
 
-int run(const std::string& study, const std::string& directory, bool quick) {
-  treejet::Report report(directory, quick);
-  if (study == "time") {
-    treejet::study_time_reversal(report);
-    treejet::study_reference_values(report);
-    treejet::study_work_precision(report);
-  } else if (study == "restart") {
-    treejet::study_restart(report);
-  } else if (study == "scaling") {
-    treejet::study_scaling(report);
-  } else if (study == "stability") {
-    treejet::study_stiffness(report);
-    treejet::study_extreme_cases(report);
-  } else {
-    treejet::study_coulomb_accuracy(report);
-    treejet::study_coulomb_cost(report);
+/// Draws the pictures and writes the page.
+bool publish(const std::string& directory) {
+  std::fflush(stdout);
+  return std::system(
+             fmt::format("/usr/bin/python3 '{}/validation/report.py' '{}'", TREEJET_SOURCE_DIR, directory)
+                 .c_str()) == 0;
+}
+
+/// A study that breaks off is a claim that does not hold; the others go on.
+void run(const Study& study, Report& report) try {
+  for (const auto part : study.parts) part(report);
+} catch (const treejet::FileError&) {
+  throw;
+} catch (const treejet::Error& e) {
+  report.check(fmt::format("{} ends: {}", study.name, e.what()), std::nan(""), 1, 1);
+}
+
+int run(const std::vector<Study>& chosen, Report& report) {
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  const auto share = [&](const Study& s) { return report.quick ? s.quick : s.full; };
+  double left = 0, done = 0;
+  for (const Study& s : chosen) left += share(s);
+  for (const Study& s : chosen) {
+    run(s, report);
+    done += share(s), left -= share(s);
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    if (chosen.size() > 1)
+      fmt::print(stderr, "{} done after {}; all of it: about {} left\n", s.name,
+                 treejet::duration_text(seconds), treejet::duration_text(seconds * left / done));
   }
-  const int failures = report.conclude("checks_" + study);
-  if (study != "restart" && draw(directory) != 0)
-    fmt::print(stderr, "treejet-validate: the pictures could not be drawn\n");
+  const int failures = report.conclude();
+  const bool published = publish(report.directory().string());
+  if (!published) fmt::print(stderr, "treejet-validate: the report could not be made whole\n");
   if (failures > 0) fmt::print("\n{} claims do not hold\n", failures);
-  return failures > 0 ? 1 : 0;
+  return failures > 0 ? 1 : published ? 0 : 4;
 }
 
 }  // namespace
@@ -52,19 +116,16 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(lesson);
   std::string directory = "results/validation";
-  bool quick = false;
-  for (const auto& [study, meaning] :
-       {std::pair{"time", "Error against work, orders of convergence, time reversal"},
-        std::pair{"stability", "Largest stable steps, extreme cases"},
-        std::pair{"restart", "Runs killed at random moments and resumed"},
-        std::pair{"scaling", "Speedup and efficiency of ranks and threads"},
-        std::pair{"coulomb",
-                  "The Coulomb field: error against time, crossover with the direct sum, growth"}}) {
-    auto& command = *app.add_subcommand(study, meaning);
-    command.add_option("--out", directory, "directory of tables and pictures, made if missing")
+  bool quick = false, full = false;
+  const auto add = [&](const std::string& name, const std::string& meaning) {
+    auto& command = *app.add_subcommand(name, meaning);
+    command.add_option("--out", directory, "directory of tables, pictures and report, made if missing")
         ->capture_default_str();
-    command.add_flag("--quick", quick, "fewer and shorter runs: a minute instead of several");
-  }
+    auto* q = command.add_flag("--quick", quick, "fewer and shorter runs");
+    command.add_flag("--full", full, "the whole, which is the default")->excludes(q);
+  };
+  add("all", "All of the following, one report");
+  for (const Study& s : studies) add(s.name, s.meaning);
   treejet::ScalingRun scaling_run;
   bool tree = false;
   auto& single =
@@ -88,7 +149,13 @@ int main(int argc, char** argv) {
       fmt::print("{}", text(measure(scaling_run, ranks)));
       return 0;
     }
-    return run(app.get_subcommands().front()->get_name(), directory, quick);
+    const std::string name = app.get_subcommands().front()->get_name();
+    std::vector<Study> chosen;
+    for (const Study& s : studies)
+      if (name == "all" || name == s.name) chosen.push_back(s);
+    Report report(directory, quick);
+    write_provenance(directory, fmt::format("treejet-validate {}{}", name, quick ? " --quick" : ""));
+    return run(chosen, report);
   } catch (const treejet::Error& e) {
     return ranks.fail(e.exit_code(), fmt::format("treejet-validate: {}\n", e.what()));
   }

@@ -1,33 +1,10 @@
-#!/usr/bin/python3
-"""Draws the tables of treejet-validate: work_precision, orders of convergence, time reversal, stable steps, scaling, the
-Coulomb field's error against time, its crossover with the direct sum and its growth.
+"""Pictures of the numerics: work and precision, orders of convergence, time reversal, stable steps, scaling, and the
+Coulomb field's error against time, its crossover with the direct sum and its growth."""
 
-    validation/plot_validation.py DIR [--out DIR]
-
-Needs python3-matplotlib. A table that is absent is passed over. Exit codes: 0 drawn, 2 arguments, 4 nothing to draw or a
-table that cannot be read.
-"""
-
-import argparse
-import csv
-import sys
-from pathlib import Path
-
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-COLOURS = {  # one scheme, one colour, in all pictures
-    "Euler": "#999999",
-    "Heun": "#d1495b",
-    "Runge-Kutta 4": "#edae49",
-    "Dormand-Prince 5(4)": "#31688e",
-    "Verner 6(5)": "#35b779",
-}
-OTHER = "#7b3294"
-CASES = {"case 1": "case 1: one bead", "case 2": "case 2: straight jet", "case 3": "case 3: PVP jet"}
+from pictures import CASES, COLOURS, OTHER, finish, grid, number, rows_of
 
 
 def scheme_of(name):
@@ -47,15 +24,6 @@ def style(name):
     )
 
 
-def table(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
-def number(text):
-    return float(text) if text else np.nan
-
-
 def lines(rows, x, y):
     """{scheme: (x, y)} in the order of the rows."""
     found = {}
@@ -71,22 +39,6 @@ def draw_lines(panel, rows, x, y, unit_x=1.0):
             panel.loglog(u[good] * unit_x, v[good], **style(name))
 
 
-def finish(figure, panels, target):
-    entries = {}
-    for panel in panels:
-        panel.grid(True, which="major", color="0.9", linewidth=0.6)
-        panel.spines[["top", "right"]].set_visible(False)
-        for handle, label in zip(*panel.get_legend_handles_labels()):
-            entries.setdefault(label, handle)
-    columns = max(1, int(figure.get_figwidth() / 2.4))
-    room = 0.22 * -(-len(entries) // columns) / figure.get_figheight()
-    figure.get_layout_engine().set(rect=(0, room, 1, 1 - room))
-    figure.legend(entries.values(), entries.keys(), loc="lower center", ncol=columns, frameon=False, fontsize=8)
-    figure.savefig(target, dpi=130)
-    plt.close(figure)
-    print(f"wrote {target}")
-
-
 def guide(panel, text):
     """A grey line of slope 1 below the curves."""
     right, top = panel.get_xlim()[1], panel.get_ylim()[0] ** 0.35 * panel.get_ylim()[1] ** 0.65
@@ -94,7 +46,7 @@ def guide(panel, text):
     panel.annotate(text, (0.98, 0.04), xycoords="axes fraction", color="0.4", fontsize=8, ha="right")
 
 
-def draw_work_precision(rows, out):
+def draw_work_precision(rows, directory):
     rows = [row for row in rows if "step ends" not in row["scheme"]]
     cases = [case for case in CASES if any(row["case"] == case for row in rows)]
     for x, label, name in (
@@ -106,10 +58,10 @@ def draw_work_precision(rows, out):
             draw_lines(panel, [row for row in rows if row["case"] == case], x, "error [cm]")
             panel.set(xlabel=label, title=CASES[case])
         panels[0, 0].set_ylabel("greatest error of a bead's position (cm)")
-        finish(figure, panels[0], out / name)
+        finish(figure, panels[0], directory / name)
 
 
-def draw_convergence(rows, out):
+def draw_convergence(rows, directory):
     """Error against the step, with events located and at step ends; error against the tolerance."""
     fixed = [row for row in rows if row["timestep [s]"]]
     adaptive = [row for row in rows if row["tolerance"]]
@@ -119,7 +71,7 @@ def draw_convergence(rows, out):
         draw_lines(panel, [row for row in fixed if row["case"] == case], "timestep [s]", "error [cm]")
         panel.set(xlabel="time step (s)", title=CASES[case])
     panels[0, 0].set_ylabel("greatest error of a bead's position (cm)")
-    finish(figure, panels[0], out / "error_against_step.png")
+    finish(figure, panels[0], directory / "error_against_step.png")
 
     cases = [case for case in CASES if any(row["case"] == case for row in adaptive)]
     figure, panels = plt.subplots(1, len(cases), figsize=(4.2 * len(cases), 4.2), squeeze=False, layout="constrained")
@@ -128,20 +80,20 @@ def draw_convergence(rows, out):
         guide(panel, "dotted: proportional to the tolerance")
         panel.set(xlabel="tolerance", title=CASES[case])
     panels[0, 0].set_ylabel("greatest error of a bead's position (cm)")
-    finish(figure, panels[0], out / "error_against_tolerance.png")
+    finish(figure, panels[0], directory / "error_against_tolerance.png")
 
 
-def draw_time_reversal(rows, out):
+def draw_time_reversal(rows, directory):
     figure, panel = plt.subplots(figsize=(5.6, 4.6), layout="constrained")
     step = [number(row["scaled timestep"]) for row in rows]
     for name in ("Euler", "Heun", "Runge-Kutta 4"):
         panel.loglog(step, [number(row[name]) for row in rows], **style(name))
     panel.set(xlabel="scaled time step", ylabel=r"$|\bar x_{2n} - \bar x_0| / 2n$ (scaled length)",
               title="case 1 forth to scaled time 5 and back")
-    finish(figure, [panel], out / "time_reversal.png")
+    finish(figure, [panel], directory / "time_reversal.png")
 
 
-def draw_stable_steps(rows, out):
+def draw_stable_steps(rows, directory):
     schemes = [name for name in rows[0] if name.endswith(" [s]") and not name.startswith("relaxation")]
     place = np.arange(len(rows))
     width = 0.8 / len(schemes)
@@ -156,10 +108,10 @@ def draw_stable_steps(rows, out):
     panel.set_yscale("log")
     panel.set(ylabel="largest stable time step (s)", title="Case 3 with a stiffer fluid or shorter elements")
     panel.set_xticks(place, [row["case"].replace("mu", "µ").replace(" x ", " × ") for row in rows])
-    finish(figure, [panel], out / "stable_steps.png")
+    finish(figure, [panel], directory / "stable_steps.png")
 
 
-def draw_scaling(rows, out):
+def draw_scaling(rows, directory):
     """The paper's two figures: speedup and efficiency against the number of workers, one line a system size."""
     rows = [row for row in rows if row["speedup"]]
     kinds = [kind for kind in ("ranks", "threads", "mixed") if any(row["kind"] == kind for row in rows)]
@@ -180,7 +132,7 @@ def draw_scaling(rows, out):
                     for row in rows if (int(row["beads"]), row["sum"]) == size and row["kind"] in ("serial", kind)
                 )
                 p, value, least, median, greatest = np.array(points).T
-                spread = [value - value * median / greatest, value * median / least - value]
+                spread = np.maximum(0, [value - value * median / greatest, value * median / least - value])
                 panel.errorbar(p, value, spread, marker="o", markersize=4, linewidth=1.3, capsize=2,
                                color=colours[size], label=f"{size[0]} beads, {size[1]}")
             panel.set(xlabel="workers", title=f"workers are {kind}", xticks=workers)
@@ -188,27 +140,10 @@ def draw_scaling(rows, out):
             if column == "efficiency":
                 panel.axhline(0.8, color="0.6", linewidth=0.8, linestyle=":")
         panels[0, 0].set_ylabel(label)
-        finish(figure, panels[0], out / name)
+        finish(figure, panels[0], directory / name)
 
 
-def rows_of(rows, column):
-    """{value: rows with it}, in the order of the rows."""
-    found = {}
-    for row in rows:
-        found.setdefault(row[column], []).append(row)
-    return found
-
-
-def grid(count, width=3.4, height=3.1):
-    columns = min(4, count)
-    lines = -(-count // columns)
-    figure, panels = plt.subplots(lines, columns, figsize=(width * columns, height * lines + 0.3), squeeze=False, layout="constrained")
-    for panel in panels.flat[count:]:
-        panel.set_visible(False)
-    return figure, panels
-
-
-def draw_coulomb_shapes(rows, out):
+def draw_coulomb_shapes(rows, directory):
     """Error against time of every shape of the tree, one panel a set of charges; what the program chose stands out."""
     ways = {
         "chain": dict(color="#31688e", marker="o", label="chain, any order and opening"),
@@ -228,10 +163,10 @@ def draw_coulomb_shapes(rows, out):
         panel.title.set_fontsize(9)
     for line in panels:
         line[0].set_ylabel("relative L2 error of the field")
-    finish(figure, panels.flat, out / "coulomb_error_against_time.png")
+    finish(figure, panels.flat, directory / "coulomb_error_against_time.png")
 
 
-def draw_coulomb_accuracy(rows, out):
+def draw_coulomb_accuracy(rows, directory):
     """What came of each accuracy asked for: the error, and how much faster than the direct sum."""
     rows = [row for row in rows if row["tree"] != '"direct"' and number(row["order"]) > 0]
     sizes = list(rows_of(rows, "N").items())
@@ -249,10 +184,10 @@ def draw_coulomb_accuracy(rows, out):
         gain.set_xlabel("accuracy asked for")
     panels[0, 0].set_ylabel("relative L2 error (dotted: the promise)")
     panels[1, 0].set_ylabel("time of the direct sum / time of the tree")
-    finish(figure, panels.flat, out / "coulomb_accuracy.png")
+    finish(figure, panels.flat, directory / "coulomb_accuracy.png")
 
 
-def draw_coulomb_crossover(rows, out):
+def draw_coulomb_crossover(rows, directory):
     paths = rows_of(rows, "vectors")
     figure, panels = grid(len(paths), width=4.2, height=3.8)
     for (path, some), panel in zip(paths.items(), panels.flat):
@@ -264,10 +199,10 @@ def draw_coulomb_crossover(rows, out):
                      linestyle="--", linewidth=1.2, label="shipped table")
         panel.set(title=path, xlabel="accuracy")
     panels[0, 0].set_ylabel("points at which the tree becomes faster")
-    finish(figure, panels.flat, out / "coulomb_crossover.png")
+    finish(figure, panels.flat, directory / "coulomb_crossover.png")
 
 
-def draw_coulomb_growth(rows, out):
+def draw_coulomb_growth(rows, directory):
     accuracies = rows_of(rows, "accuracy")
     figure, panels = grid(len(accuracies))
     for (accuracy, some), panel in zip(accuracies.items(), panels.flat):
@@ -279,44 +214,16 @@ def draw_coulomb_growth(rows, out):
                          marker="o", markersize=4, linewidth=1.2, label=name)
         panel.set(title=f"accuracy {accuracy}", xlabel="number of points N")
     panels[0, 0].set_ylabel("time of an evaluation (s, one thread)")
-    finish(figure, panels.flat, out / "coulomb_growth.png")
+    finish(figure, panels.flat, directory / "coulomb_growth.png")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("tables", metavar="DIR", type=Path, help="where treejet-validate wrote its tables")
-    parser.add_argument("--out", metavar="DIR", type=Path, help="where the pictures go (default: beside the tables)")
-    options = parser.parse_args()
-    out = options.out or options.tables
-    out.mkdir(parents=True, exist_ok=True)
-
-    drawn, complaints = 0, []
-    for name, drawings in (
-        ("time_reversal", [draw_time_reversal]),
-        ("work_precision", [draw_work_precision, draw_convergence]),
-        ("stable_steps", [draw_stable_steps]),
-        ("scaling", [draw_scaling]),
-        ("coulomb_accuracy", [draw_coulomb_accuracy]),
-        ("coulomb_shapes", [draw_coulomb_shapes]),
-        ("coulomb_crossover", [draw_coulomb_crossover]),
-        ("coulomb_growth", [draw_coulomb_growth]),
-    ):
-        path = options.tables / f"{name}.csv"
-        if not path.exists():
-            continue
-        try:
-            rows = table(path)
-            for draw in drawings:
-                draw(rows, out)
-                drawn += 1
-        except (OSError, ValueError, KeyError, IndexError) as problem:
-            complaints.append(f"{path}: {type(problem).__name__}: {problem}")
-    if not drawn and not complaints:
-        complaints.append(f"{options.tables}: holds no table of treejet-validate")
-    for complaint in complaints:
-        print(f"plot_validation: {complaint}", file=sys.stderr)
-    return 4 if complaints else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+DRAWINGS = {
+    "time_reversal": [draw_time_reversal],
+    "work_precision": [draw_work_precision, draw_convergence],
+    "stable_steps": [draw_stable_steps],
+    "scaling": [draw_scaling],
+    "coulomb_accuracy": [draw_coulomb_accuracy],
+    "coulomb_shapes": [draw_coulomb_shapes],
+    "coulomb_crossover": [draw_coulomb_crossover],
+    "coulomb_growth": [draw_coulomb_growth],
+}
