@@ -73,6 +73,7 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* ch
   }
   const auto started = std::chrono::steady_clock::now();
   if (!simulation.finish()) {
+    ranks.greatest(stopped_early);  // no rank ends before the first one has written the checkpoint
     if (ranks.first())
       fmt::print(stderr, "treejet: stopped at t = {:.6g} s by {}; to go on: treejet run --resume {}\n",
                  simulation.t(), interruption.reason(), directory);

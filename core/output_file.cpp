@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -44,10 +43,6 @@ OutputFile::OutputFile(fs::path path, Existing existing)
         "{}: exists already; choose another directory with --out, or --force to replace it", path_.string()));
   }
   if (descriptor_ < 0) fail("cannot be opened");
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    ::close(descriptor_);
-    throw FileError(fmt::format("{}: another run is writing it", path_.string()));
-  }
   if (existing == Existing::replace) cut(0);
 }
 

@@ -1,11 +1,10 @@
 #pragma once
-/// A file of results: created once, never over an existing one unless told to, locked against a second run.
+/// A file of results: created once, never over an existing one unless told to.
 ///
 /// A record is in the file as a whole or not at all, unless the program is killed while it is written: every
 /// record is handed to the operating system at once, and what a failed write left of it is cut off again. A
 /// checkpoint forces the file to disk and notes its length; a run that is resumed cuts it there and goes on.
-/// FileError, with the file's name: failed calls, a file removed or changed under us, one used by another
-/// run.
+/// FileError, with the file's name: failed calls, a file removed or changed under us.
 
 #include <cstdint>
 #include <filesystem>

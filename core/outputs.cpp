@@ -47,6 +47,7 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
                     const OutputSetting& setting)
     : maxnum_(p.xyz_maxnum), force_error_(setting.force_error) {
   if (setting.elsewhere) return;
+  if (p.print_hdf5 || p.print_xyz || !p.printstat_list.empty()) lock_.emplace(setting.directory);
   const Scales s = scales(p);
   const auto file = [&](const char* name) {
     files_.push_back(setting.directory / name);

@@ -5,9 +5,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/directory_lock.hpp"
 #include "core/output_file.hpp"
 #include "core/parameters.hpp"
 #include "core/run_record.hpp"
@@ -38,7 +40,7 @@ struct OutputSetting {
 template <int D>
 class Outputs {
  public:
-  /// Opens the files; FileError if one exists already or cannot be made.
+  /// Opens the files; FileError if one exists already or cannot be made, or if another run writes there.
   Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
           const OutputSetting& setting);
   ~Outputs();
@@ -58,6 +60,7 @@ class Outputs {
     std::unique_ptr<Watcher<D>> watcher;
   };
 
+  std::optional<DirectoryLock> lock_;  ///< none without files
   std::vector<Named> watchers_;
   std::vector<std::filesystem::path> files_;
   const Trajectory<D>* trajectory_ = nullptr;

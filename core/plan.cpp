@@ -56,11 +56,15 @@ double flight(const Parameters& p, const TrialSample& middle, const TrialSample&
   return (std::sqrt(last.v * last.v + 2 * a * way) - last.v) / a;
 }
 
+/// Where half of the work was done, or the start: by the clock a moment in which the machine did something
+/// else might leave nothing behind it.
 const TrialSample& middle(const std::vector<TrialSample>& samples) {
-  const double half = samples.back().seconds / 2;
-  const auto found =
-      std::find_if(samples.begin(), samples.end(), [&](const TrialSample& s) { return s.seconds >= half; });
-  return found == samples.end() - 1 && found != samples.begin() ? *(found - 1) : *found;
+  const TrialSample& last = samples.back();
+  const auto beyond = [&](const TrialSample& s) {
+    return 2 * s.evaluations > last.evaluations || s.t >= last.t;
+  };
+  const auto found = std::find_if(samples.begin(), samples.end(), beyond);
+  return found == samples.begin() ? *found : *(found - 1);
 }
 
 double mean_since_arrival(const std::vector<TrialSample>& samples) {
@@ -104,7 +108,7 @@ Plan plan(const Parameters& p, const Trial& trial, bool all_pairs) {
   plan.evaluations = double(last.evaluations);
   plan.steps = double(last.steps);
   plan.seconds = last.seconds;
-  if (left > 0 && last.t > mid.t) {
+  if (left > 0) {
     const auto rate = [&](auto member) { return double(last.*member - mid.*member) / (last.t - mid.t); };
     Growth growth{last.t, double(last.beads), rate(&TrialSample::inserted), end};
     plan.inserted += growth.rate * left;

@@ -38,7 +38,7 @@ struct TrialSample {
 };
 
 struct Trial {
-  std::vector<TrialSample> samples;
+  std::vector<TrialSample> samples;  ///< the first one at the start
   bool complete = false;  ///< to the final time
 };
 

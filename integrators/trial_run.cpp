@@ -46,6 +46,8 @@ Trial trial_run(const Parameters& p, const typename Simulation<D>::Scene& scene,
   const auto control = step_control(p);
   Onlooker<D> onlooker;
   Trial trial;
+  trial.samples.resize(1);
+  trial.samples[0].beads = scene.jet.size();
   const March<D>* watched = nullptr;
   const auto pause = [&] {
     const double now = elapsed();

@@ -6,6 +6,7 @@
 #include <random>
 #include <sstream>
 
+#include "core/directory_lock.hpp"
 #include "core/error.hpp"
 #include "core/resumption.hpp"
 #include "forces/scene.hpp"
@@ -228,14 +229,26 @@ TEST_CASE("A stopped run is neither started over nor resumed into files that are
   CHECK_THAT(contents(rows), Catch::StartsWith(all) && !Catch::Contains("1 2 3\n"));
 }
 
-TEST_CASE("A file of results tells when it is removed, changed or written by a second run") {
+TEST_CASE("A directory of results takes one run at a time") {
+  const Place place;
+  const fs::path results = place.path / "results";
+  {
+    const DirectoryLock first(results);
+    CHECK_THROWS_WITH(DirectoryLock(results),
+                      Catch::Contains(results.string()) && Catch::Contains("another run"));
+  }
+  CHECK_NOTHROW(DirectoryLock(results));
+  overwrite(place.path / "file", "");
+  CHECK_THROWS_AS(DirectoryLock(place.path / "file"), FileError);
+}
+
+TEST_CASE("A file of results tells when it is removed or changed") {
   const Place place;
   const fs::path path = place.path / "statdat.dat";
   const auto replace = OutputFile::Existing::replace;
   {
     OutputFile file(path, replace);
     file.write("1\n");
-    CHECK_THROWS_WITH(OutputFile(path, replace), Catch::Contains("another run"));
     CHECK_THROWS_WITH(OutputFile(path, OutputFile::Existing::keep), Catch::Contains("--force"));
     file.write("2\n");
     CHECK(contents(path) == "1\n2\n");
