@@ -13,6 +13,7 @@
 
 #include <array>
 
+#include "forces/few_points.hpp"
 #include "forces/vector_path.hpp"
 #include "parallel/rows.hpp"
 
@@ -52,9 +53,6 @@ template <int D>
 void coulomb_mutual(const PointCharges<D>& points, const FieldArrays<D>& field);
 template <int D>
 void coulomb_mutual(const PointCharges<D>& points, const FieldArrays<D>& field, VectorPath path);
-
-/// So few that a second worker would not pay.
-constexpr int few_points = 512;
 
 /// Shares of rows in whole blocks of this size fill the wide registers.
 constexpr int direct_block = 16;

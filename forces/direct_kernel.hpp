@@ -11,6 +11,7 @@
 /// place give 0 * infinity, hence a field that is not finite. `Isa` brings q d2^(-3/2) (wide_*.cpp).
 
 #include "forces/expansions.hpp"
+#include "forces/few_points.hpp"
 #include "forces/wide.hpp"
 #include "parallel/rows.hpp"
 
@@ -107,8 +108,6 @@ void direct(const double* const* r, const double* q, int n, Rows rows, double* c
   }
 }
 
-constexpr int most_mutual = 512;  // points: the partial sums of more leave the second-level cache
-
 /// The whole field of few points, each pair worked out once. Rows of the result are not independent of each
 /// other, so this is one worker's job.
 template <class Isa, int D>
@@ -116,7 +115,7 @@ void direct_mutual(const double* const* r, const double* q, int n, double* const
   using Block = DirectBlock<Isa, D>;
   using Pack = typename Block::Pack;
   constexpr int lanes = Block::lanes;
-  Pack back[most_mutual + lanes][D];  // what earlier blocks do to a point, lane by lane
+  Pack back[few_points + lanes][D];  // what earlier blocks do to a point, lane by lane
   for (int j = 0; j < n + lanes; ++j)
     for (int k = 0; k < D; ++k) back[j][k] = Pack{};
 

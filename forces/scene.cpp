@@ -135,7 +135,7 @@ Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks) {
   const Nozzle<D> nozzle(p);
   Scene<D> scene{initial_jet<D>(p), nozzle, Collector(p), nullptr, nullptr, {}, {}};
   scene.motion = std::make_unique<EquationsOfMotion<D>>(nozzle, std::move(law), std::move(terms), threads);
-  if (composer.two_rates()) scene.two_rates = std::make_unique<TwoRateMotion<D>>(*scene.motion, *p.tolerance);
+  if (composer.two_rates()) scene.two_rates = std::make_unique<TwoRateMotion<D>>(*scene.motion, ErrorNorm(p));
   scene.composed = std::move(composer.composed);
   scene.left_out = std::move(composer.left_out);
   return scene;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error_norm.hpp"
 #include "core/wide_loops.hpp"
 
 namespace treejet {
@@ -104,7 +103,7 @@ void TwoRateMotion<D>::at_node(const Jet<D>& jet, double t, const Table<D>& y, T
   Moment<D> now = moment(jet, t, slope);
   if (continues(y.rows())) {
     set_far(now);
-    const double error = mismatch(jet, t, y, now) * since / permitted_error(tolerance_);
+    const double error = mismatch(jet, t, y, now) * since;
     // a slow bead gains this error over and over on its whole way, while most steps err on the youngest bead
     // only
     constexpr double aim = 1e-3, order = 4;
@@ -191,7 +190,7 @@ double TwoRateMotion<D>::mismatch(const Jet<D>& jet, double t, const Table<D>& y
         far.colwise() * (full_.coulomb()->Q() * jet.charge.segment(i, m) / jet.mass.segment(i, m));
     error.middleRows(i, m).col(stress_column<D>).setZero();
   }
-  return error_norm<D>(error, y, full_.nozzle().l_step());
+  return norm_(error, y);
 }
 
 template <int D>

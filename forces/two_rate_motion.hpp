@@ -19,6 +19,7 @@
 
 #include <array>
 
+#include "core/error_norm.hpp"
 #include "forces/equations_of_motion.hpp"
 
 namespace treejet {
@@ -40,8 +41,9 @@ struct Moment {
 template <int D>
 class TwoRateMotion final : public Motion<D> {
  public:
-  /// `tolerance` is that of the step control; the error of the continuation is held to a part of it.
-  TwoRateMotion(EquationsOfMotion<D>& full, double tolerance) : full_(full), tolerance_(tolerance) {}
+  /// The norm is that of the step control; the error of the continuation is held to a part of what it
+  /// permits.
+  TwoRateMotion(EquationsOfMotion<D>& full, const ErrorNorm& norm) : full_(full), norm_(norm) {}
 
   void operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) override;
   void at_node(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) override;
@@ -68,7 +70,7 @@ class TwoRateMotion final : public Motion<D> {
   void set_far(Moment<D>& moment) const;
 
   EquationsOfMotion<D>& full_;
-  double tolerance_;
+  ErrorNorm norm_;
   std::array<Moment<D>, moments> past_;  ///< newest first
   int remembered_ = 0;
   double interval_ = 0;

@@ -18,7 +18,7 @@ struct WideKernels {
   Direct direct_1d, direct_3d;
   Direct direct_with_potential;  ///< three dimensions; the potential goes to a fourth array
 
-  /// The whole field of at most 512 charges (few_points of coulomb.hpp) by Newton's third law.
+  /// The whole field of at most few_points charges by Newton's third law.
   using Mutual = void (*)(const double* const* r, const double* q, int n, double* const* field);
   Mutual mutual_1d, mutual_3d;
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/error_norm.hpp"
 #include "integrators/diagnosis.hpp"
 
 namespace treejet {
@@ -145,9 +144,7 @@ double March<D>::attempt(double end) {
     if (!(now_.t + h > now_.t)) give_up();
     step(h);
     const bool estimated = parts_.stepper.error.rows() > 0;
-    const double error = estimated ? error_norm<D>(parts_.stepper.error, now_.y, parts_.nozzle.l_step()) /
-                                         permitted_error(parts_.tolerance)
-                                   : 0;
+    const double error = estimated ? parts_.norm(parts_.stepper.error, now_.y) : 0;
     if (!parts_.control.accepts(now_.t, h, error)) {
       ++effort_.rejected;
       continue;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/collector.hpp"
+#include "core/error_norm.hpp"
 #include "core/nozzle.hpp"
 #include "core/watcher.hpp"
 #include "integrators/step_control.hpp"
@@ -37,8 +38,8 @@ class March {
     StepControl& control;
     const Nozzle<D>& nozzle;
     const Collector& collector;
-    EventRule events = EventRule::located;
-    double tolerance = 0;  ///< of the step control; 0 with fixed steps
+    EventRule events;
+    ErrorNorm norm;
     std::vector<Watcher<D>*> watchers;
     std::function<bool()> pause = {};  ///< asked between any two steps: whether to stop there
   };

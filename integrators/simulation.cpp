@@ -31,7 +31,7 @@ Simulation<D>::Simulation(const Deck& deck, const Scene& scene, const Setting& s
       control_(step_control(deck.parameters)),
       outputs_(deck.parameters, scene.nozzle, scene.collector, setting_.outputs),
       march_({scene.jet, scene.motion, *stepper_, *control_, scene.nozzle, scene.collector,
-              deck.parameters.events, deck.parameters.tolerance.value_or(0), outputs_.watchers(),
+              deck.parameters.events, ErrorNorm(deck.parameters), outputs_.watchers(),
               [this] { return pause(); }}) {
   if (setting.resumed) visit(setting.resumed->state);
 }

@@ -62,7 +62,7 @@ Trial trial_run(const Parameters& p, const typename Simulation<D>::Scene& scene,
                   scene.nozzle,
                   scene.collector,
                   p.events,
-                  p.tolerance.value_or(0),
+                  ErrorNorm(p),
                   {&onlooker},
                   pause});
   watched = &march;

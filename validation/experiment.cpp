@@ -76,8 +76,8 @@ Outcome run(const Parameters& p, const Setup& setup) {
   watchers.push_back(&clock);
   const auto scheme = stepper<D>(chosen_scheme(p));
   const auto control = step_control(p);
-  March<D> march({scene.jet, motion, *scheme, *control, scene.nozzle, scene.collector, p.events,
-                  p.tolerance.value_or(0), watchers});
+  March<D> march({scene.jet, motion, *scheme, *control, scene.nozzle, scene.collector, p.events, ErrorNorm(p),
+                  watchers});
   Outcome o;
   const double started = processor_seconds();
   try {

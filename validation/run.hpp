@@ -41,7 +41,7 @@ struct Run {
     const auto scheme = stepper<D>(chosen_scheme(parameters));
     const auto control = step_control(parameters);
     March<D> march({scene.jet, scene.right_hand_side(), *scheme, *control, scene.nozzle, scene.collector,
-                    parameters.events, parameters.tolerance.value_or(0), std::move(watchers)});
+                    parameters.events, ErrorNorm(parameters), std::move(watchers)});
     march.to(seconds / unit.time);
     return march.effort();
   }

@@ -30,7 +30,7 @@ Vec<3> between(const Table<3>& y, int first_column, Eigen::Index a, double part,
 void march(const Parameters& p, Scene<3>& scene, Motion<3>& motion, double until) {
   const auto scheme = stepper<3>(chosen_scheme(p));
   const auto control = step_control(p);
-  March<3>({scene.jet, motion, *scheme, *control, scene.nozzle, scene.collector, p.events, *p.tolerance, {}})
+  March<3>({scene.jet, motion, *scheme, *control, scene.nozzle, scene.collector, p.events, ErrorNorm(p), {}})
       .to(until / scales(p).time);
 }
 

@@ -66,7 +66,7 @@ void march_to(double end, double dt, Jet<D>& jet, EquationsOfMotion<D>& f, const
   FixedStep control(dt);
   const Nozzle<D> nozzle(p);
   const Collector collector(p);
-  March<D>({jet, f, *steps, control, nozzle, collector, p.events, 0, {}}).to(end);
+  March<D>({jet, f, *steps, control, nozzle, collector, p.events, ErrorNorm(p), {}}).to(end);
 }
 
 }  // namespace treejet

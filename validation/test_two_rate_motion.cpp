@@ -61,7 +61,7 @@ TEST_CASE("At a remembered moment the continued slopes are the full ones") {
   run.to(0.006);
   Jet<3> jet = run.jet();
   EquationsOfMotion<3>& full = *run.scene.motion;
-  TwoRateMotion<3> two(full, 1e-6);
+  TwoRateMotion<3> two(full, ErrorNorm(run.parameters));
   Table<3> expected, remembered, continued;
   for (int k = 0; k < 4; ++k) {  // three moments, and the state they lead to
     two.at_node(jet, jet.t, jet.y, remembered);
@@ -83,7 +83,7 @@ TEST_CASE("A release and a removal leave the continued slopes true") {
     run.scene.nozzle.release(jet);
   }
   EquationsOfMotion<3>& full = *run.scene.motion;
-  TwoRateMotion<3> two(full, 1e-6);
+  TwoRateMotion<3> two(full, ErrorNorm(run.parameters));
   Table<3> slope, expected, continued;
   for (int k = 0; k < 4; ++k) {
     two.at_node(jet, jet.t, jet.y, slope);
