@@ -113,11 +113,10 @@ class CoulombPieces::Walk {
   std::vector<Lists> lists_;  ///< of each level
 };
 
-void CoulombPieces::arrange(const PointCharges<3>& piece, const TreeShape& shape, Threads threads,
-                            bool keep_order) {
+void CoulombPieces::arrange_alone(const PointCharges<3>& piece, const TreeShape& shape, Threads threads,
+                                  bool keep_order) {
   shape_ = shape;
   tree_.plant(piece, shape, threads, keep_order);
-  tree_.graft(shape.opening);
   for (auto& values : sums_) values.resize(index(piece.n));
 }
 

@@ -23,7 +23,13 @@ class CoulombPieces {
       : kernels_(&wide_kernels(path)), tree_(ranks, path) {}
 
   void arrange(const PointCharges<3>& piece, const TreeShape& shape, Threads threads,
-               bool keep_order = false);
+               bool keep_order = false) {
+    arrange_alone(piece, shape, threads, keep_order);
+    reopen(shape.opening);
+  }
+  /// Sees nothing of the others.
+  void arrange_alone(const PointCharges<3>& piece, const TreeShape& shape, Threads threads,
+                     bool keep_order = false);
   /// The same points, another opening; 0: all pairs are near, a direct sum.
   void reopen(double opening);
 

@@ -11,8 +11,8 @@ namespace treejet {
 
 namespace {
 
-/// Balls of an outline: so many cells of one level, fewer of a small piece.
-constexpr int balls = 32;
+/// Balls of all outlines together, and of one.
+constexpr int all_balls = 8192, least_balls = 32, most_balls = 256;
 /// Words of a ball on a card: centre, radius, largest radius of a leaf.
 constexpr int ball_words = 5;
 /// Words of a cell in a letter before its moments: centre, radius, children, points.
@@ -24,11 +24,12 @@ std::size_t index(int k) {
   return static_cast<std::size_t>(k);
 }
 
-double distance(const double* a, const double* b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
 }  // namespace
+
+EssentialTree::EssentialTree(const Ranks& ranks, int company, VectorPath path)
+    : kernels_(&wide_kernels(path)),
+      ranks_(ranks),
+      balls_(std::clamp(all_balls / company, least_balls, most_balls)) {}
 
 void EssentialTree::plant(const PointCharges<3>& piece, const TreeShape& shape, Threads threads,
                           bool keep_order) {
@@ -65,6 +66,8 @@ void EssentialTree::plant(const PointCharges<3>& piece, const TreeShape& shape, 
   moments_.resize(cells_.size() * stride());
   locals_.resize(cells_.size() * index(expansions_.local_stride));
   view_expansions();
+  roots_.clear();
+  if (piece.n > 0) roots_.push_back(0);
   move_up(*kernels_, own_, expansions_, points(), threads);
 }
 
@@ -73,23 +76,18 @@ void EssentialTree::graft(double opening) {
   for (auto& centre : centre_) centre.resize(cells_.size());
   moments_.resize(cells_.size() * stride());
   for (auto* values : {&r_[0], &r_[1], &r_[2], &q_}) values->resize(index(own_.points()));
-  roots_.clear();
-  if (own_.points() > 0) roots_.push_back(0);
+  roots_.resize(own_.points() > 0 ? 1 : 0);
   if (ranks_.size() > 1) {
     const std::vector<double> all = cards();
     Ranks::Letters letters(index(ranks_.size()));
-    for (int k = 0; k < ranks_.size(); ++k) {
-      if (k == ranks_.rank() || own_.points() == 0) continue;
-      const Outline other = outline(all.data() + index(k) * card_words());
-      if (!other.empty() && !closed(0, other, opening)) write(0, other, opening, letters[index(k)]);
-    }
+    for (int k = 0; k < ranks_.size(); ++k)
+      if (k != ranks_.rank()) letters[index(k)] = letter(all.data() + index(k) * card_words(), opening);
     const Ranks::Letters received = ranks_.exchange(letters);
     for (int k = 0; k < ranks_.size(); ++k) {
       const double* card = all.data() + index(k) * card_words();
       if (k == ranks_.rank() || card[0] == 0) continue;
       roots_.push_back(place());
-      read(roots_.back(),
-           received[index(k)].empty() ? card + 1 + balls * ball_words : received[index(k)].data());
+      read(roots_.back(), received[index(k)].empty() ? card + root_on_card() : received[index(k)].data());
     }
     account(letters, received);
   }
@@ -113,23 +111,51 @@ double EssentialTree::distance2(int a, int b) const {
   return sum;
 }
 
-/// Of a card: the number of balls, the balls, the root as a closed cell.
+/// A card: the number of balls, the balls, the root as a closed cell.
+std::size_t EssentialTree::root_on_card() const {
+  return 1 + index(balls_) * ball_words;
+}
+
 std::size_t EssentialTree::card_words() const {
-  return 1 + balls * ball_words + header + stride();
+  return root_on_card() + header + stride();
+}
+
+EssentialTree::Letter EssentialTree::card() const {
+  Letter card(root_on_card());
+  if (own_.points() > 0) {
+    write_outline(card.data());
+    write_cell(0, 0, 0, card);
+  }
+  card.resize(card_words());
+  return card;
+}
+
+EssentialTree::Letter EssentialTree::letter(const double* card, double opening) const {
+  Letter letter;
+  if (own_.points() == 0 || card[0] == 0) return letter;
+  const int balls = static_cast<int>(card[0]);
+  // most others are far as a whole, which takes one ball to see
+  double whole[ball_words];
+  std::copy_n(card + root_on_card(), ball_words - 1, whole);
+  double& leaf_radius = whole[ball_words - 1] = 0;
+  for (int k = 0; k < balls; ++k) leaf_radius = std::max(leaf_radius, card[ball_words * (k + 1)]);
+  Outline other;
+  other.add(whole, opening);
+  if (closed(0, other)) return letter;
+  other = {};
+  for (int k = 0; k < balls; ++k) other.add(card + 1 + ball_words * k, opening);
+  if (!closed(0, other)) write(0, other, letter);
+  return letter;
 }
 
 /// Of all ranks.
 std::vector<double> EssentialTree::cards() const {
   std::vector<double> all(index(ranks_.size()) * card_words());
-  double* own = all.data() + index(ranks_.rank()) * card_words();
-  if (own_.points() > 0) {
-    write_outline(own);
-    Letter root;
-    write_cell(0, 0, 0, root);
-    std::copy(root.begin(), root.end(), own + 1 + balls * ball_words);
-  }
+  const Letter own = card();
+  std::copy(own.begin(), own.end(),
+            all.begin() + static_cast<std::ptrdiff_t>(index(ranks_.rank()) * own.size()));
   std::vector<int> borders;
-  for (int k = 0; k <= ranks_.size(); ++k) borders.push_back(k * static_cast<int>(card_words()));
+  for (int k = 0; k <= ranks_.size(); ++k) borders.push_back(k * static_cast<int>(own.size()));
   double* const column[] = {all.data()};
   ranks_.gather(column, borders);
   return all;
@@ -139,7 +165,7 @@ std::vector<double> EssentialTree::cards() const {
 void EssentialTree::write_outline(double* at) const {
   const int bottom = own_.levels() - 1;
   int level = bottom;
-  while (own_.level(level).last - own_.level(level).first > balls) --level;
+  while (own_.level(level).last - own_.level(level).first > balls_) --level;
   const CellRange cells = own_.level(level), leaves = own_.level(bottom);
   *at++ = cells.last - cells.first;
   for (int k = cells.first; k < cells.last; ++k) {
@@ -153,29 +179,35 @@ void EssentialTree::write_outline(double* at) const {
   }
 }
 
-EssentialTree::Outline EssentialTree::outline(const double* card) const {
-  Outline found(static_cast<std::size_t>(card[0]));
-  ++card;
-  for (Ball& b : found) {
-    b = {{card[0], card[1], card[2]}, card[3], card[4]};
-    card += ball_words;
+void EssentialTree::Outline::add(const double* ball, double opening) {
+  opening2 = rounding * opening * opening;
+  for (int e = 0; e < 3; ++e) centre[e].push_back(ball[e]);
+  reach.push_back(ball[4] + opening * ball[3]);
+}
+
+/// Whether no leaf in the balls can ask for what the cell is made of.
+bool EssentialTree::closed(int k, const Outline& outline) const {
+  const double x = centre_[0][index(k)], y = centre_[1][index(k)], z = centre_[2][index(k)];
+  const double radius = cell(k).radius;
+  constexpr std::size_t together = 16;  // in wide registers, without a branch
+  for (std::size_t first = 0; first < outline.reach.size(); first += together) {
+    int near = 0;
+    for (std::size_t b = first; b < std::min(first + together, outline.reach.size()); ++b) {
+      const double dx = outline.centre[0][b] - x, dy = outline.centre[1][b] - y,
+                   dz = outline.centre[2][b] - z;
+      const double size = radius + outline.reach[b];
+      near += !(size * size < outline.opening2 * (dx * dx + dy * dy + dz * dz));
+    }
+    if (near > 0) return false;
   }
-  return found;
+  return true;
 }
 
-/// Whether no leaf within the outline can ask for what the cell is made of.
-bool EssentialTree::closed(int k, const Outline& outline, double opening) const {
-  const double centre[3] = {centre_[0][index(k)], centre_[1][index(k)], centre_[2][index(k)]};
-  return std::all_of(outline.begin(), outline.end(), [&](const Ball& b) {
-    return cell(k).radius + b.leaf_radius < rounding * opening * (distance(centre, b.centre) - b.radius);
-  });
-}
-
-void EssentialTree::write(int k, const Outline& outline, double opening, Letter& letter) const {
+void EssentialTree::write(int k, const Outline& outline, Letter& letter) const {
   const Cell& c = cell(k);
-  const bool open = !closed(k, outline, opening);
+  const bool open = !closed(k, outline);
   write_cell(k, open ? c.children : 0, open ? c.points.size() : 0, letter);
-  for (int child = 0; open && child < c.children; ++child) write(c.child + child, outline, opening, letter);
+  for (int child = 0; open && child < c.children; ++child) write(c.child + child, outline, letter);
 }
 
 void EssentialTree::write_cell(int k, int children, int points, Letter& letter) const {

@@ -13,7 +13,8 @@
 /// Cells A and B are far if r_A + r_B < opening * |c_A - c_B|. A rank knows of another's leaf B no more than
 /// that it lies in a ball (c, R) of its outline and that r_B <= rho, so it closes cell A for that ball if
 ///     r_A + rho < opening * (|c_A - c| - R) ;
-/// then no leaf there asks for the children. Source: Warren and Salmon, Supercomputing '93.
+/// then no leaf there asks for the children. Source: Warren and Salmon, Supercomputing '93. The fewer the
+/// ranks, the longer their pieces and the more balls an outline has: cards stay small beside letters.
 ///
 /// A piece may be empty. Memory: O(own points) + O(points received) + O(ranks) for the cards.
 
@@ -39,12 +40,20 @@ class EssentialTree {
     int cells = 0, points = 0, partners = 0;  ///< received; ranks that wrote more than their card
   };
 
-  EssentialTree(const Ranks& ranks, VectorPath path) : kernels_(&wide_kernels(path)), ranks_(ranks) {}
+  EssentialTree(const Ranks& ranks, VectorPath path) : EssentialTree(ranks, ranks.size(), path) {}
+  /// As one of so many ranks, without them: to see what it would write.
+  EssentialTree(const Ranks& ranks, int company, VectorPath path);
 
   /// With `keep_order` points stand in the order found last time, if there are as many.
   void plant(const PointCharges<3>& piece, const TreeShape& shape, Threads threads, bool keep_order);
   /// Drops what was grafted before. Called by all ranks.
   void graft(double opening);
+
+  /// Its two parts: what this rank shows all others, and what it writes to the one with that card, nothing if
+  /// its own card is enough.
+  using Letter = std::vector<double>;
+  Letter card() const;
+  Letter letter(const double* card, double opening) const;
 
   const Cells& own() const { return own_; }
   /// One a piece that is not empty, the own one first.
@@ -64,21 +73,22 @@ class EssentialTree {
   std::int64_t bytes() const;  ///< held
 
  private:
-  using Letter = std::vector<double>;
-  /// A ball with some of a piece's points, and the largest radius of their leaves.
-  struct Ball {
-    double centre[3], radius, leaf_radius;
+  /// Balls that hold a piece, for an opening: centres, and how far from a ball a cell of radius 0 must be to
+  /// be far from all leaves in it, times the opening.
+  struct Outline {
+    double opening2 = 0;
+    std::vector<double> centre[3], reach;
+    void add(const double* ball, double opening);
   };
-  using Outline = std::vector<Ball>;
 
   std::size_t stride() const { return static_cast<std::size_t>(expansions_.moment_stride); }
   void view_expansions();
+  std::size_t root_on_card() const;
   std::size_t card_words() const;
   std::vector<double> cards() const;
-  Outline outline(const double* card) const;
   void write_outline(double* at) const;
-  bool closed(int cell, const Outline& outline, double opening) const;
-  void write(int cell, const Outline& outline, double opening, Letter& letter) const;
+  bool closed(int cell, const Outline& outline) const;
+  void write(int cell, const Outline& outline, Letter& letter) const;
   void write_cell(int cell, int children, int points, Letter& letter) const;
   int place();
   const double* read(int cell, const double* at);
@@ -86,6 +96,7 @@ class EssentialTree {
 
   const WideKernels* kernels_;
   Ranks ranks_;
+  int balls_;  ///< of an outline, at most
   Cells own_;
   std::vector<int> order_, roots_;
   int block_ = 0;  ///< of the order

@@ -39,7 +39,8 @@ PiecesSample::Spread PiecesSample::spread(const CoulombPieces& pieces) const {
   for (double count : leaves) first.push_back(first.back() + static_cast<int>(count));
 
   Spread all;
-  all.leaves = sample_leaves(first.back(), std::min(first.back(), sampled_points / pieces.shape().leaf));
+  all.leaves =
+      sample_leaves(first.back(), std::min(first.back(), sampled_points_of_pieces / pieces.shape().leaf));
   for (int border : first)
     all.borders.push_back(static_cast<int>(std::lower_bound(all.leaves.begin(), all.leaves.end(), border) -
                                            all.leaves.begin()));

@@ -9,6 +9,10 @@
 
 namespace treejet {
 
+/// More than of an undivided chain: there are more points, ranks share the sums, and shapes are taken that
+/// just pass.
+constexpr int sampled_points_of_pieces = 4 * sampled_points;
+
 class PiecesSample {
  public:
   /// `pieces` is arranged, in any shape. Like `error` called by all ranks.

@@ -57,7 +57,7 @@ void PiecesSolver::arrange(const PointCharges<3>& piece, Threads threads) {
 double PiecesSolver::measuring_interval(double n) const {
   if (request_.measured_every) return *request_.measured_every;
   const double work = report_.work * n / chosen_for_;
-  return std::min(1e6, (work + sampled_points * n / ranks_.size()) / (measuring_share * work));
+  return std::min(1e6, (work + sampled_points_of_pieces * n / ranks_.size()) / (measuring_share * work));
 }
 
 void PiecesSolver::measure(const PointCharges<3>& piece, double n, Threads threads) {
@@ -96,17 +96,19 @@ void PiecesSolver::choose(const PointCharges<3>& piece, double n, Threads thread
   ++report_.error.choices;
   chosen_for_ = measured_for_ = n;
   since_measurement_ = since_sort_ = 0;
+  pieces_ = CoulombPieces(ranks_, path_);  // what was seen at other shapes may have taken more room
   pieces_.arrange(piece, report_.shape, threads);
 }
 
-/// Chain or space: whichever needs the least work at this shape.
+/// Chain or space: whichever needs the least work at this shape, each piece by itself: in an order that suits
+/// the chain ill, pieces would show each other nearly all they hold.
 void PiecesSolver::choose_order_of_points(const PointCharges<3>& piece, TreeShape& shape, Threads threads) {
   double least = std::numeric_limits<double>::infinity();
   int best = 0;
   for (int block : {0, 16, 4, 1}) {
     if (request_.space && *request_.space != (block > 0)) continue;
     shape.block = block;
-    pieces_.arrange(piece, shape, threads);
+    pieces_.arrange_alone(piece, shape, threads);
     const double work = this->work();
     if (work < least) least = work, best = block;
   }
@@ -143,9 +145,12 @@ void PiecesSolver::search(const PointCharges<3>& piece, TreeShape shape, Threads
   }
 }
 
-/// The error at the widest opening that is accurate enough, or at that pinned with the order.
+/// The error at the widest opening that is accurate enough, or at that pinned with the order. An opening much
+/// narrower than that of a shape already found would cost more than the order saves, and show every rank much
+/// of the other pieces.
 std::optional<SampledError> PiecesSolver::find_opening(const PiecesSample& sample, Threads threads) {
-  for (double opening = request_.opening.value_or(widest_opening); opening > narrowest_opening;
+  const double narrowest = report_.direct ? narrowest_opening : 0.6 * report_.shape.opening;
+  for (double opening = request_.opening.value_or(widest_opening); opening > narrowest;
        opening *= opening_step) {
     pieces_.reopen(opening);
     const SampledError error = sample.error(pieces_, threads);

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.hpp"
+#include "validation/distributed_run.hpp"
 #include "validation/scaling_run.hpp"
 #include "validation/studies.hpp"
 
@@ -31,6 +32,8 @@ int run(const std::string& study, const std::string& directory, bool quick) {
     treejet::study_restart(report);
   } else if (study == "scaling") {
     treejet::study_scaling(report);
+  } else if (study == "distributed") {
+    treejet::study_distributed(report);
   } else if (study == "stability") {
     treejet::study_stiffness(report);
     treejet::study_extreme_cases(report);
@@ -58,6 +61,7 @@ int main(int argc, char** argv) {
         std::pair{"stability", "Largest stable steps, extreme cases"},
         std::pair{"restart", "Runs killed at random moments and resumed"},
         std::pair{"scaling", "Speedup and efficiency of ranks and threads"},
+        std::pair{"distributed", "A chain held in pieces: bytes, memory, accuracy, a model of many ranks"},
         std::pair{"coulomb",
                   "The Coulomb field: error against time, crossover with the direct sum, growth"}}) {
     auto& command = *app.add_subcommand(study, meaning);
@@ -75,6 +79,16 @@ int main(int argc, char** argv) {
   single.add_option("--evaluations", scaling_run.evaluations, "how many to measure")
       ->check(CLI::Range(1, 1000000000));
   single.add_flag("--tree", tree, "Coulomb sum by the tree");
+  treejet::DistributedRun distributed_run;
+  auto& pieces =
+      *app.add_subcommand("distributed-run", "One measured field of a chain held in pieces, by ranks");
+  pieces.add_option("--chain", distributed_run.chain, "jet or coil")->check(CLI::IsMember({"jet", "coil"}));
+  pieces.add_option("--points", distributed_run.points, "of the whole chain")
+      ->check(CLI::Range(1, 100000000));
+  pieces.add_option("--accuracy", distributed_run.accuracy, "of the field")->check(CLI::Range(1e-12, 0.1));
+  pieces.add_option("--threads", distributed_run.threads, "threads of each rank")->check(CLI::Range(1, 4096));
+  pieces.add_option("--evaluations", distributed_run.evaluations, "the quickest of so many counts")
+      ->check(CLI::Range(1, 1000000));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -82,6 +96,11 @@ int main(int argc, char** argv) {
   }
   treejet::Ranks ranks;
   try {
+    if (pieces.parsed()) {
+      ranks = treejet::join_ranks();
+      fmt::print("{}", text(measure(distributed_run, ranks)));
+      return 0;
+    }
     if (single.parsed()) {
       ranks = treejet::join_ranks();
       if (tree) scaling_run.sum = treejet::CoulombSum::tree;
