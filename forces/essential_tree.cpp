@@ -83,6 +83,7 @@ void EssentialTree::graft(double opening) {
     for (int k = 0; k < ranks_.size(); ++k)
       if (k != ranks_.rank()) letters[index(k)] = letter(all.data() + index(k) * card_words(), opening);
     const Ranks::Letters received = ranks_.exchange(letters);
+    make_room(received);
     for (int k = 0; k < ranks_.size(); ++k) {
       const double* card = all.data() + index(k) * card_words();
       if (k == ranks_.rank() || card[0] == 0) continue;
@@ -219,6 +220,17 @@ void EssentialTree::write_cell(int k, int children, int points, Letter& letter) 
     const auto first = values->begin() + cell(k).points.first;
     letter.insert(letter.end(), first, first + points);
   }
+}
+
+/// For what the letters bring at most: arrays that grow by doubling would hold the own piece twice.
+void EssentialTree::make_room(const Ranks::Letters& letters) {
+  std::size_t words = 0;
+  for (const auto& letter : letters) words += letter.size();
+  const std::size_t cells = cells_.size() + letters.size() + words / (header + stride());
+  cells_.reserve(cells);
+  moments_.reserve(cells * stride());
+  for (auto& centre : centre_) centre.reserve(cells);
+  for (auto* values : {&r_[0], &r_[1], &r_[2], &q_}) values->reserve(values->size() + words / 4);
 }
 
 /// Room for one more cell; its number.

@@ -90,6 +90,7 @@ class EssentialTree {
   bool closed(int cell, const Outline& outline) const;
   void write(int cell, const Outline& outline, Letter& letter) const;
   void write_cell(int cell, int children, int points, Letter& letter) const;
+  void make_room(const Ranks::Letters& letters);
   int place();
   const double* read(int cell, const double* at);
   void account(const Ranks::Letters& out, const Ranks::Letters& in);

@@ -83,9 +83,10 @@ LongChain::LongChain(const std::string& kind) : curve_(kind == "coil" ? dense_co
   }
 }
 
-PointSet LongChain::points(int n, Rows rows, int stride) const {
+PointSet LongChain::points(int n, Rows rows, int stride, int run) const {
   PointSet set;
-  for (int i = rows.first; i < rows.last; i += stride) {
+  for (int i = rows.first; i < rows.last; ++i) {
+    if ((i - rows.first) / run % stride != 0) continue;
     const double at = length_.back() * (i + 0.5) / n;
     const auto k =
         static_cast<std::size_t>(std::upper_bound(length_.begin(), length_.end(), at) - length_.begin());

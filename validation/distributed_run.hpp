@@ -16,8 +16,8 @@ class LongChain {
   /// "jet": a whipping jet of 40 turns that widen along the axis. "coil": 1000 turns of radius 1 and pitch
   /// 0.01, where pieces far along the chain are near in space.
   explicit LongChain(const std::string& kind);
-  /// Those of n points that stand in `rows`, or every `stride`-th of them.
-  PointSet points(int n, Rows rows, int stride = 1) const;
+  /// Those of n points that stand in `rows`, or of each `stride` runs of so many the first one.
+  PointSet points(int n, Rows rows, int stride = 1, int run = 1) const;
 
  private:
   std::function<std::array<double, 3>(double)> curve_;

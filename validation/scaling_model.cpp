@@ -9,8 +9,8 @@ namespace treejet {
 
 namespace {
 
-/// A card needs no more points of its piece than these.
-constexpr int enough_for_a_card = 4096;
+/// A card needs no more points of its piece than about so many.
+constexpr int enough_for_a_card = 10'000;
 
 Rows share(int points, int ranks, int k) {
   const auto border = [&](int rank) { return static_cast<int>(std::int64_t{points} * rank / ranks); };
@@ -22,13 +22,13 @@ Rows share(int points, int ranks, int k) {
 Volume volume(const LongChain& chain, int points, int ranks, const TreeShape& shape) {
   EssentialTree tree({}, ranks, default_path());
   std::vector<std::vector<double>> cards;
-  // fewer points stand farther apart: their leaves are larger, and so are the letters to them
+  // whole leaves, so that their radii are right
   const int stride = std::max(1, points / ranks / enough_for_a_card);
   for (int k = 0; k < ranks; ++k) {
-    TreeShape coarse = shape;
-    coarse.order = 2;  // nobody looks at the moments
-    coarse.leaf = std::max(16, shape.leaf / stride / 16 * 16);
-    tree.plant(chain.points(points, share(points, ranks, k), stride).view(), coarse, {1}, false);
+    TreeShape without_moments = shape;
+    without_moments.order = 2;  // nobody looks at them
+    tree.plant(chain.points(points, share(points, ranks, k), stride, shape.leaf).view(), without_moments, {1},
+               false);
     cards.push_back(tree.card());
   }
   Volume most;

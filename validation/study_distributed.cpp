@@ -111,7 +111,10 @@ void study_distributed(Report& report) {
       if (points == 100'000) c.ranks.push_back(32);
       cases.push_back(c);
     }
-  print_model(report, measure_all(report, cases));
+  const ProcessorUse processors;
+  const DistributedMeasurement base = measure_all(report, cases);
+  fmt::print("\nothers took {:.0f} % of the processors' time meanwhile\n", 100 * processors.by_others());
+  print_model(report, base);
 }
 
 }  // namespace treejet
