@@ -12,17 +12,21 @@ namespace {
 constexpr double margin = 1.25;
 /// Below this accuracy a near field in single precision is not tried.
 constexpr double finest_single = 3e-5;
-/// From wide to narrow in steps of 7 %: the error is a staircase of them, since whole shells of leaves change
-/// from far to near.
-constexpr double widest_opening = 0.8, narrowest_opening = 0.05, step = 0.93;
 
-/// The order that usually costs least; measured on jets and coils.
+CoulombChoice direct_because(const std::string& reason) {
+  CoulombChoice choice;
+  choice.reason = reason;
+  return choice;
+}
+
+}  // namespace
+
+/// Measured on jets and coils.
 int usual_order(double accuracy) {
   return std::clamp(static_cast<int>(std::lround(-1.35 * std::log10(accuracy))), 3, 13);
 }
 
-/// The mean of E^2 over the points, the largest hundredth taken as nothing (SampledError).
-double typical_square(const std::vector<double> (&E)[3]) {
+double typical_square(const std::array<std::span<const double>, 3>& E) {
   std::vector<double> squares;
   for (std::size_t i = 0; i < E[0].size(); ++i) {
     const double square = E[0][i] * E[0][i] + E[1][i] * E[1][i] + E[2][i] * E[2][i];
@@ -34,7 +38,6 @@ double typical_square(const std::vector<double> (&E)[3]) {
   return std::accumulate(squares.begin(), typical, 0.0) / static_cast<double>(squares.size());
 }
 
-/// `count` of all leaves, spread over the tree.
 std::vector<int> sample_leaves(int all, int count) {
   std::vector<int> sample;
   for (int k = 0; k < count; ++k) {
@@ -45,13 +48,25 @@ std::vector<int> sample_leaves(int all, int count) {
   return sample;
 }
 
-CoulombChoice direct_because(const std::string& reason) {
-  CoulombChoice choice;
-  choice.reason = reason;
-  return choice;
+void LeafErrors::add(std::span<const double> squares) {
+  double square = 0;
+  for (double s : squares) {
+    if (!std::isfinite(s)) continue;
+    square += s / static_cast<double>(squares.size());
+    largest = std::max(largest, s);
+  }
+  sum += square;
+  sum_squares += square * square;
+  ++leaves;
 }
 
-}  // namespace
+SampledError LeafErrors::relative_to(double mean_square) const {
+  if (mean_square == 0 || leaves == 0) return {};
+  const double mean = sum / leaves;
+  const double spread = std::sqrt(std::max(0.0, sum_squares / leaves - mean * mean) / leaves);
+  return {std::sqrt(mean / mean_square), std::sqrt(largest / mean_square),
+          margin * std::sqrt((mean + 2 * spread) / mean_square)};
+}
 
 CoulombSample::CoulombSample(int points, CoulombTree& tree, Threads threads)
     : n_(points), leaves_(sample_leaves(tree.leaves(), sampled_points / tree.shape().leaf)) {
@@ -61,33 +76,26 @@ CoulombSample::CoulombSample(int points, CoulombTree& tree, Threads threads)
 
   // The size of the whole field, from the tree itself: it need not be exact.
   tree.evaluate(tree.leaves_of({0, n_}), {0, n_}, field, threads);
-  mean_square_ = typical_square(direct_);
+  mean_square_ = typical_square({direct_[0], direct_[1], direct_[2]});
   for (int leaf : leaves_) points_of_leaf_.push_back(tree.points_of(leaf));
   tree.evaluate_directly(leaves_, field, threads);
 }
 
 SampledError CoulombSample::error(CoulombTree& tree, Threads threads) {
   tree.evaluate(leaves_, {0, n_}, {tried_[0].data(), tried_[1].data(), tried_[2].data()}, threads);
-  double sum = 0, sum_squares = 0, count = 0, largest = 0;
+  LeafErrors errors;
+  std::vector<double> squares;
   for (const auto& points : points_of_leaf_) {
-    double square = 0;
+    squares.clear();
     for (int k : points) {
       const auto i = static_cast<std::size_t>(k);
       double difference2 = 0;
       for (std::size_t e = 0; e < 3; ++e) difference2 += std::pow(tried_[e][i] - direct_[e][i], 2);
-      if (!std::isfinite(difference2)) continue;
-      square += difference2 / static_cast<double>(points.size());
-      largest = std::max(largest, difference2);
+      squares.push_back(difference2);
     }
-    sum += square;
-    sum_squares += square * square;
-    ++count;
+    errors.add(squares);
   }
-  if (mean_square_ == 0) return {};
-  const double mean = sum / count;
-  const double spread = std::sqrt(std::max(0.0, sum_squares / count - mean * mean) / count);
-  return {std::sqrt(mean / mean_square_), std::sqrt(largest / mean_square_),
-          margin * std::sqrt((mean + 2 * spread) / mean_square_)};
+  return errors.relative_to(mean_square_);
 }
 
 double price(const Interactions& work, const TreeShape& shape, int points, VectorPath path) {
@@ -152,7 +160,8 @@ struct Search {
   }
 
   void try_openings(int order, CoulombSample& sample, double widest) {
-    for (double opening = request.opening.value_or(widest); opening > narrowest_opening; opening *= step) {
+    for (double opening = request.opening.value_or(widest); opening > narrowest_opening;
+         opening *= opening_step) {
       tree.reshape(order, opening, threads);
       const SampledError error = sample.error(tree, threads);
       const bool pinned = request.opening.has_value();

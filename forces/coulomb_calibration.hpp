@@ -13,7 +13,9 @@
 /// Prices are in units of one direct pair of the same vector path, so they depend little on the machine's
 /// clock.
 
+#include <array>
 #include <limits>
+#include <span>
 
 #include "forces/coulomb_solver.hpp"
 
@@ -21,13 +23,36 @@ namespace treejet {
 
 constexpr int sampled_points = 1024;
 
+/// `count` of all leaves, spread over the tree.
+std::vector<int> sample_leaves(int all, int count);
+
+/// The mean of E^2 over the points, the largest hundredth taken as nothing (SampledError).
+double typical_square(const std::array<std::span<const double>, 3>& E);
+
+/// The squared errors of sampled leaves, added up.
+struct LeafErrors {
+  double leaves = 0, sum = 0, sum_squares = 0, largest = 0;
+
+  /// Those at the points of one leaf; what is not finite (coincident points) is passed over.
+  void add(std::span<const double> squares);
+
+  /// The bound is the mean over the sampled leaves plus two standard deviations of that mean, times a margin.
+  SampledError relative_to(double mean_square) const;
+};
+
+/// The order of expansion that usually costs least.
+int usual_order(double accuracy);
+
+/// Openings are tried from wide to narrow in steps of 7 %: the error is a staircase of them, since whole
+/// shells of leaves change from far to near.
+constexpr double widest_opening = 0.8, narrowest_opening = 0.05, opening_step = 0.93;
+
 /// Sampled leaves and the direct field at their points.
 class CoulombSample {
  public:
   /// `tree` holds the points, in any shape.
   CoulombSample(int points, CoulombTree& tree, Threads threads);
 
-  /// The bound is the mean over the sampled leaves plus two standard deviations of that mean, times a margin.
   SampledError error(CoulombTree& tree, Threads threads);
 
  private:

@@ -13,14 +13,6 @@ namespace treejet {
 
 namespace {
 
-/// Evaluations between two sorts of the points in space, while their number stays the same.
-constexpr int sorted_every = 16;
-/// Part of the work that measuring the error may take.
-constexpr double measuring_share = 0.03;
-/// What a shape's opening may be narrowed by at a measurement.
-constexpr double narrowing = 0.93;
-constexpr int narrowings = 4;
-
 bool differs_by(double part, int n, int before) {
   return std::abs(n - before) > part * before;
 }
@@ -57,8 +49,7 @@ int repair_coincident(const PointCharges<3>& points, Rows rows, const FieldArray
 
 }  // namespace
 
-CoulombSolver::CoulombSolver(const CoulombRequest& request, VectorPath path, const Ranks& ranks)
-    : request_(request), path_(path), ranks_(ranks), tree_(path, ranks) {
+void require_valid(const CoulombRequest& request) {
   if (!(request.accuracy > 0)) throw InputError("coulomb accuracy must be positive");
   if (request.order && (*request.order < 2 || *request.order > 14))
     throw InputError("coulomb order must be 2 to 14");
@@ -66,6 +57,11 @@ CoulombSolver::CoulombSolver(const CoulombRequest& request, VectorPath path, con
     throw InputError("coulomb opening must be above 0 and at most 0.9");
   if (request.leaf && (*request.leaf < 16 || *request.leaf % 16 != 0))
     throw InputError("coulomb leaf must be a multiple of 16");
+}
+
+CoulombSolver::CoulombSolver(const CoulombRequest& request, VectorPath path, const Ranks& ranks)
+    : request_(request), path_(path), ranks_(ranks), tree_(path, ranks) {
+  require_valid(request);
   report_.error.asked = request.accuracy;
 }
 
@@ -114,23 +110,22 @@ int CoulombSolver::measuring_interval(int n) const {
 /// only if that does not help it is chosen anew.
 void CoulombSolver::measure(const PointCharges<3>& points, Threads threads) {
   CoulombSample sample(points.n, tree_, threads);
-  record(sample.error(tree_, threads));
+  report_.record(sample.error(tree_, threads));
   since_measurement_ = 0;
   measured_for_ = points.n;
   TreeShape& shape = report_.shape;
   for (int k = 0; k < narrowings && report_.expected_error > request_.accuracy && !request_.opening; ++k) {
     shape.opening *= narrowing;
     tree_.reshape(shape.order, shape.opening, threads);
-    record(sample.error(tree_, threads));
+    report_.record(sample.error(tree_, threads));
     report_.error.method = description(report_);
   }
   if (report_.expected_error > request_.accuracy && !(request_.order && request_.opening))
     choose(points, threads);
 }
 
-void CoulombSolver::record(const SampledError& sampled) {
-  ForceError& error = report_.error;
-  report_.expected_error = sampled.bound;
+void CoulombReport::record(const SampledError& sampled) {
+  expected_error = sampled.bound;
   error.l2 = sampled.l2;
   error.max = sampled.max;
   error.worst_l2 = std::max(error.worst_l2, error.l2);
@@ -146,7 +141,7 @@ void CoulombSolver::choose(const PointCharges<3>& points, Threads threads) {
   report_.shape = choice.shape;
   report_.work = choice.work;
   report_.expected_error = report_.error.l2 = report_.error.max = 0;
-  if (!choice.direct) record(choice.error);
+  if (!choice.direct) report_.record(choice.error);
   report_.error.method = description(report_);
   ++report_.error.choices;
   chosen_for_ = measured_for_ = points.n;

@@ -32,6 +32,14 @@ namespace treejet {
 
 enum class CoulombMethod { automatic, direct, tree };
 
+/// Part of the work that measuring the error may take.
+constexpr double measuring_share = 0.03;
+/// What a shape's opening may be narrowed by at a measurement, and how often, before another is looked for.
+constexpr double narrowing = 0.93;
+constexpr int narrowings = 4;
+/// Evaluations between two sorts of the points in space, while their number stays the same.
+constexpr int sorted_every = 16;
+
 struct CoulombRequest {
   CoulombMethod method = CoulombMethod::automatic;
   double accuracy = 1e-5;
@@ -42,6 +50,9 @@ struct CoulombRequest {
   bool local_expansions = true;            ///< false: Barnes-Hut, with the same search for opening and order
   std::optional<int> measured_every = {};  ///< evaluations; without it, as takes 3 % of the work
 };
+
+/// InputError for an accuracy that is not positive or a pinned value out of range.
+void require_valid(const CoulombRequest& request);
 
 /// The error of the field on sampled leaves, relative to the root mean square of the field over all points
 /// but the hundredth with the strongest field: in a cloud a few close pairs may hold most of it, and the
@@ -61,6 +72,9 @@ struct CoulombReport {
   int coincident = 0;                ///< points of the last evaluation that share their place with another
   Interactions interactions;         ///< of the last evaluation
 
+  /// Takes in a measurement of the present shape.
+  void record(const SampledError& error);
+
   void visit(Archive& state) {
     state(direct, reason, shape, expected_error, work, error, coincident, interactions);
   }
@@ -72,7 +86,7 @@ std::string description(const CoulombReport& report);
 
 class CoulombSolver {
  public:
-  /// InputError for an accuracy that is not positive or a pinned value out of range.
+  /// InputError for a request that is not valid.
   explicit CoulombSolver(const CoulombRequest& request, VectorPath path = default_path(),
                          const Ranks& ranks = {});
 
@@ -91,7 +105,6 @@ class CoulombSolver {
   void decide(const PointCharges<3>& points, Threads threads);
   void choose(const PointCharges<3>& points, Threads threads);
   void measure(const PointCharges<3>& points, Threads threads);
-  void record(const SampledError& error);
   int measuring_interval(int n) const;
 
   CoulombRequest request_;

@@ -8,6 +8,7 @@
 #include "forces/multipole.hpp"
 #include "forces/space_order.hpp"
 #include "forces/traversal.hpp"
+#include "forces/tree_passes.hpp"
 
 namespace treejet {
 
@@ -17,12 +18,8 @@ std::size_t index(int k) {
   return static_cast<std::size_t>(k);
 }
 
-int padded(int terms) {
-  return (terms + 7) / 8 * 8;
-}
-
-/// Cells a thread takes at once: leaves with all their work, and cells only moved up or down a level.
-constexpr int leaves_a_task = 64, cells_a_task = 512;
+/// Leaves, with all their work, that a thread takes at once.
+constexpr int leaves_a_task = 64;
 
 }  // namespace
 
@@ -60,26 +57,11 @@ void CoulombTree::expand(Threads threads) {
   locals_.resize(index(cells_.size()) * index(expansions_.local_stride));
   expansions_.moments = moments_.data();
   expansions_.locals = locals_.data();
-  move_up(threads);
+  move_up(*kernels_, cells_, expansions_, points_.points({0, points_.size()}), threads);
 }
 
 CellPoints CoulombTree::leaf_cell(int leaf) const {
   return points_.points(cells_.leaf_points(leaf));
-}
-
-void CoulombTree::move_up(Threads threads) {
-  const int bottom = cells_.levels() - 1;
-  const CellRange leaves = cells_.level(bottom);
-  for_each_block(threads, {0, cells_.leaves()}, leaves_a_task, [&](Rows rows) {
-    for (int k = rows.first; k < rows.last; ++k) kernels_->p2m(expansions_, leaves.first + k, leaf_cell(k));
-  });
-  for (int l = bottom - 1; l >= 0; --l) {
-    const CellRange parents = cells_.level(l), children = cells_.level(l + 1);
-    for_each_block(threads, {0, parents.last - parents.first}, cells_a_task, [&](Rows rows) {
-      kernels_->m2m(expansions_, {parents.first + rows.first, parents.first + rows.last},
-                    {children.first + 2 * rows.first, children.last});
-    });
-  }
 }
 
 std::vector<int> CoulombTree::leaves_of(Rows rows) const {
@@ -106,12 +88,6 @@ std::vector<int> CoulombTree::points_of(int leaf) const {
   std::vector<int> points(index(rows.size()));
   for (int k = rows.first; k < rows.last; ++k) points[index(k - rows.first)] = points_.source(k);
   return points;
-}
-
-void CoulombTree::want(std::span<const int> leaves) {
-  wanted_.assign(index(cells_.size()), 0);
-  for (int l = 0; l < cells_.levels(); ++l)
-    for (int leaf : leaves) wanted_[index(cells_.level(l).first + (leaf >> (cells_.levels() - 1 - l)))] = 1;
 }
 
 Interactions CoulombTree::evaluate(const std::vector<int>& leaves, Rows rows, const FieldArrays<3>& field,
@@ -200,7 +176,7 @@ void CoulombTree::act_near(int leaf, std::span<const int> near) {
 }
 
 Interactions CoulombTree::local_expansions(std::span<const int> leaves, Threads threads) {
-  want(leaves);
+  mark_above(cells_, leaves, wanted_);
   struct Task {
     int level, cell;
     std::vector<int> sources;  ///< far cells of one target cell above the cut, or candidates of a subtree
@@ -242,7 +218,7 @@ Interactions CoulombTree::local_expansions(std::span<const int> leaves, Threads 
     else
       far(task.cell, task.sources);
   });
-  move_down(threads);
+  move_down(*kernels_, cells_, expansions_, wanted_, threads);
   const int bottom = cells_.level(cells_.levels() - 1).first;
   for_each_block(threads, {0, static_cast<int>(leaves.size())}, leaves_a_task, [&](Rows some) {
     for (int n = some.first; n < some.last; ++n)
@@ -266,22 +242,6 @@ Interactions CoulombTree::count() const {
           },
           [](int, int, std::span<const int>) {});
   return work;
-}
-
-void CoulombTree::move_down(Threads threads) {
-  for (int l = 0; l + 1 < cells_.levels(); ++l) {
-    const CellRange parents = cells_.level(l), children = cells_.level(l + 1);
-    for_each_block(threads, {0, parents.last - parents.first}, cells_a_task, [&](Rows rows) {
-      // runs of wanted parents; a cell that is not wanted has no local series
-      for (int k = rows.first; k < rows.last; ++k) {
-        if (!wanted(parents.first + k)) continue;
-        const int first = k;
-        while (k < rows.last && wanted(parents.first + k)) ++k;
-        kernels_->l2l(expansions_, {parents.first + first, parents.first + k},
-                      {children.first + 2 * first, std::min(children.last, children.first + 2 * k)});
-      }
-    });
-  }
 }
 
 }  // namespace treejet

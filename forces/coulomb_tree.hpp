@@ -72,11 +72,8 @@ class CoulombTree {
   void visit(Archive& state);
 
  private:
-  void move_up(Threads threads);
   std::span<const int> own_share(const std::vector<int>& leaves) const;
   void gather(const std::vector<int>& leaves, std::size_t sums);
-  void move_down(Threads threads);
-  void want(std::span<const int> leaves);
   Interactions local_expansions(std::span<const int> leaves, Threads threads);
   Interactions barnes_hut(std::span<const int> leaves, Threads threads);
   void act_near(int leaf, std::span<const int> near);

@@ -4,12 +4,13 @@
 /// Data are replicated: each rank holds everything and does the same arithmetic on it, but for tables whose
 /// rows are shared out. Of such a table a rank sets its own rows, and `gather` gives every rank all of them;
 /// what follows is again the same everywhere, bit for bit. Only the first rank writes files, and only it is
-/// heard: the standard output of the others leads nowhere.
+/// heard: the standard output of the others leads nowhere. Where a chain is held in pieces instead
+/// (forces/coulomb_pieces.hpp), ranks write each other letters and take their decisions from common sums.
 ///
 /// A Ranks is a value. Copies stand for the same rank; a default one is alone and sends nothing. What sends
-/// (join_ranks, gather, times, agree, require_same, greatest, threads_each, crowding) is called by all ranks
-/// in the same order, by their main threads. The only mpi.h is in ranks_mpi.cpp; ranks_alone.cpp stands in
-/// for it where there is no MPI.
+/// (join_ranks, gather, exchange, sum, times, agree, require_same, greatest, threads_each, crowding) is
+/// called by all ranks in the same order, by their main threads. The only mpi.h is in ranks_mpi.cpp;
+/// ranks_alone.cpp stands in for it where there is no MPI.
 
 #include <cstdint>
 #include <memory>
@@ -51,6 +52,14 @@ class Ranks {
   /// Each rank has set the rows of its own share of every column; now all have all.
   void gather(std::span<double* const> columns, const std::vector<int>& borders) const;
 
+  /// One letter to each rank, by its number; returned are those that came, by the number of the sender. An
+  /// empty letter is not sent.
+  using Letters = std::vector<std::vector<double>>;
+  Letters exchange(const Letters& to) const;
+
+  /// Each number becomes the sum of all ranks' numbers in its place, to the same bits on all ranks.
+  void sum(std::span<double> numbers) const;
+
   /// The mean over the ranks.
   GatherTimes times() const;
 
@@ -62,6 +71,7 @@ class Ranks {
 
   /// The greatest of the ranks' numbers.
   int greatest(int number) const;
+  double greatest(double number) const;
 
   /// Threads for each rank so that those on a node do not take each other's cores.
   int threads_each() const;

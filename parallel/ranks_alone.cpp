@@ -19,6 +19,12 @@ Ranks join_ranks() {
 
 void Ranks::gather(std::span<double* const>, const std::vector<int>&) const {}
 
+Ranks::Letters Ranks::exchange(const Letters& to) const {
+  return to;
+}
+
+void Ranks::sum(std::span<double>) const {}
+
 GatherTimes Ranks::times() const {
   return {};
 }
@@ -28,6 +34,10 @@ bool Ranks::agree(const std::string&) const {
 }
 
 int Ranks::greatest(int number) const {
+  return number;
+}
+
+double Ranks::greatest(double number) const {
   return number;
 }
 

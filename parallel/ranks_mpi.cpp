@@ -132,6 +132,37 @@ void Ranks::gather(std::span<double* const> columns, const std::vector<int>& bor
   world_->last = seconds_since(begin);
 }
 
+Ranks::Letters Ranks::exchange(const Letters& to) const {
+  if (size_ == 1) return to;
+  const MPI_Comm comm = world_->everyone;
+  std::vector<int> out(to.size()), in(to.size());
+  for (std::size_t k = 0; k < to.size(); ++k) out[k] = static_cast<int>(to[k].size());
+  MPI_Alltoall(out.data(), 1, MPI_INT, in.data(), 1, MPI_INT, comm);
+  Letters from(to.size());
+  std::vector<MPI_Request> under_way;
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    const int other = static_cast<int>(k);
+    if (other == rank_) {
+      from[k] = to[k];
+      continue;
+    }
+    from[k].resize(static_cast<std::size_t>(in[k]));
+    if (in[k] > 0) MPI_Irecv(from[k].data(), in[k], MPI_DOUBLE, other, 0, comm, &under_way.emplace_back());
+    if (out[k] > 0) MPI_Isend(to[k].data(), out[k], MPI_DOUBLE, other, 0, comm, &under_way.emplace_back());
+  }
+  MPI_Waitall(static_cast<int>(under_way.size()), under_way.data(), MPI_STATUSES_IGNORE);
+  return from;
+}
+
+/// Not by Allreduce, which may add in another order on each rank.
+void Ranks::sum(std::span<double> numbers) const {
+  if (size_ == 1) return;
+  const MPI_Comm comm = world_->everyone;
+  const int count = static_cast<int>(numbers.size());
+  MPI_Reduce(first() ? MPI_IN_PLACE : numbers.data(), numbers.data(), count, MPI_DOUBLE, MPI_SUM, 0, comm);
+  MPI_Bcast(numbers.data(), count, MPI_DOUBLE, 0, comm);
+}
+
 GatherTimes Ranks::times() const {
   if (!world_) return {};
   GatherTimes mean = world_->times;
@@ -152,6 +183,11 @@ bool Ranks::agree(const std::string& text) const {
 
 int Ranks::greatest(int number) const {
   if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, &number, 1, MPI_INT, MPI_MAX, world_->everyone);
+  return number;
+}
+
+double Ranks::greatest(double number) const {
+  if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, &number, 1, MPI_DOUBLE, MPI_MAX, world_->everyone);
   return number;
 }
 

@@ -1,5 +1,5 @@
 """Pictures of the numerics: work and precision, orders of convergence, time reversal, stable steps, scaling, and the
-Coulomb field's error against time, its crossover with the direct sum and its growth."""
+Coulomb field's error against time, its crossover with the direct sum and its growth, a chain held in pieces."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -217,6 +217,39 @@ def draw_coulomb_growth(rows, directory):
     finish(figure, panels.flat, directory / "coulomb_growth.png")
 
 
+def draw_distributed(rows, directory):
+    """What a rank of a chain in pieces is sent, holds, and how accurate the field is."""
+    figure, panels = plt.subplots(1, 3, figsize=(11, 4), layout="constrained")
+    groups = {(chain, size): of for chain, some in rows_of(rows, "chain").items() for size, of in rows_of(some, "points").items()}
+    for ((chain, size), some), colour in zip(groups.items(), plt.cm.tab10.colors):
+        ranks = [number(row["ranks"]) for row in some]
+        line = dict(color=colour, marker="o", markersize=4, linewidth=1.2, label=f"{chain}, {int(size):,} points")
+        several = [row for row in some if number(row["ranks"]) > 1]
+        panels[0].loglog([number(row["ranks"]) for row in several], [number(row["sent [kB]"]) / 1e3 for row in several], **line)
+        panels[1].loglog(ranks, [number(row["held [MB]"]) for row in some], **line)
+        panels[2].loglog(ranks, [number(row["error L2"]) for row in some], **line)
+    for panel, title in zip(panels, ("sent by a rank in an evaluation (MB)", "held by a rank (MB)", "relative L2 error, 1e-5 asked for")):
+        panel.set(xlabel="ranks", title=title)
+        panel.set_xscale("log", base=2)
+    panels[2].axhline(1e-5, color="0.6", linewidth=0.8, linestyle=":")
+    finish(figure, panels, directory / "distributed.png")
+
+
+def draw_distributed_model(rows, directory):
+    """The MODEL of strong and weak scaling."""
+    figure, panel = plt.subplots(figsize=(6, 4.2), layout="constrained")
+    groups = rows_of(rows, "scaling")
+    lines_of = {f"strong, {float(size):.0e} points": of for size, of in rows_of(groups["strong"], "points").items()}
+    weak = groups["weak"]
+    lines_of[f"weak, {number(weak[0]['points']) / number(weak[0]['ranks']):.0e} points a rank"] = weak
+    for (label, some), colour in zip(lines_of.items(), plt.cm.tab10.colors):
+        panel.semilogx([number(row["ranks"]) for row in some], [number(row["MODEL efficiency"]) for row in some],
+                       color=colour, marker="o", markersize=4, linewidth=1.2, label=label)
+    panel.set(xlabel="ranks", ylabel="efficiency", title="MODEL, not a measurement: chain in pieces", ylim=(0, 1.05))
+    panel.axhline(0.8, color="0.6", linewidth=0.8, linestyle=":")
+    finish(figure, [panel], directory / "distributed_model.png")
+
+
 DRAWINGS = {
     "time_reversal": [draw_time_reversal],
     "work_precision": [draw_work_precision, draw_convergence],
@@ -226,4 +259,6 @@ DRAWINGS = {
     "coulomb_shapes": [draw_coulomb_shapes],
     "coulomb_crossover": [draw_coulomb_crossover],
     "coulomb_growth": [draw_coulomb_growth],
+    "distributed": [draw_distributed],
+    "distributed_model": [draw_distributed_model],
 }

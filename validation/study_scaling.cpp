@@ -4,16 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
-#include <filesystem>
 #include <map>
-#include <numeric>
 
-#include "core/error.hpp"
 #include "validation/machine.hpp"
 #include "validation/scaling_run.hpp"
 #include "validation/studies.hpp"
+#include "validation/team.hpp"
 
 namespace treejet {
 
@@ -25,44 +21,15 @@ struct Size {
   int evaluations;
 };
 
-struct Team {
-  int ranks, threads;
-  int workers() const { return ranks * threads; }
-  bool serial() const { return workers() == 1; }
-};
+Measurement measured(const Team& team, const Size& size, int cores) {
+  return measurement(
+      output(team, cores,
+             fmt::format("scaling-run --refinement {} --threads {} --evaluations {}{}", size.refinement,
+                         team.threads, size.evaluations, size.tree ? " --tree" : "")));
+}
 
 std::string kind(const Team& t) {
   return t.serial() ? "serial" : t.threads == 1 ? "ranks" : t.ranks == 1 ? "threads" : "mixed";
-}
-
-/// The measuring program by a team, each worker on a core of its own where there are so many.
-std::string command(const Team& team, const Size& size, int cores) {
-  const bool pinned = team.workers() <= cores;
-  std::string text =
-      fmt::format("OMP_NUM_THREADS={} OMP_WAIT_POLICY={} ", team.threads, pinned ? "active" : "passive");
-  if (pinned) text += "OMP_PROC_BIND=close OMP_PLACES=cores ";
-  if (team.ranks > 1) {
-    text += "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 ";
-    text +=
-        fmt::format("OMPI_MCA_hwloc_base_binding_policy={} OMPI_MCA_rmaps_base_mapping_policy=slot:PE={} ",
-                    pinned ? "core" : "none", pinned ? team.threads : 1);
-    text += fmt::format("'{}' -n {} ", TREEJET_MPIEXEC, team.ranks);
-  }
-  text += fmt::format("'{}' scaling-run --refinement {} --threads {} --evaluations {}{}",
-                      std::filesystem::read_symlink("/proc/self/exe").string(), size.refinement, team.threads,
-                      size.evaluations, size.tree ? " --tree" : "");
-  return text;
-}
-
-Measurement measured(const Team& team, const Size& size, int cores) {
-  const std::string line = command(team, size, cores);
-  std::FILE* pipe = popen(line.c_str(), "r");
-  if (!pipe) throw FileError("cannot start " + line);
-  std::string output;
-  for (std::array<char, 512> some; std::fgets(some.data(), some.size(), pipe);) output += some.data();
-  const auto at = output.find("measured ");
-  if (pclose(pipe) != 0 || at == std::string::npos) throw FileError("failed: " + line);
-  return measurement(output.substr(at));
 }
 
 struct Sample {
@@ -88,7 +55,7 @@ std::vector<Team> teams(int most) {
   std::vector<Team> all = {{1, 1}};
   for (int p = 2; p <= most; p *= 2)
     for (int threads = 1; threads <= p; threads *= 2)
-      if (threads == p || *TREEJET_MPIEXEC) all.push_back({p / threads, threads});
+      if (threads == p || !mpi_launcher().empty()) all.push_back({p / threads, threads});
   return all;
 }
 
@@ -132,7 +99,7 @@ void study_scaling(Report& report) {
   const int repeats = report.quick ? 1 : 5;
   const std::vector<Team> all_teams = teams(2 * cores);
   fmt::print("{}, {} physical cores; {}\n", processor_name(), cores,
-             *TREEJET_MPIEXEC ? TREEJET_MPIEXEC : "no MPI: threads only");
+             mpi_launcher().empty() ? "no MPI: threads only" : mpi_launcher());
 
   auto table = report.table(
       "scaling", "Time of an evaluation, case 3 by its own scheme, every term at every stage",

@@ -12,6 +12,7 @@
 #include "core/progress.hpp"
 #include "core/version.hpp"
 #include "forces/coulomb.hpp"
+#include "validation/distributed_run.hpp"
 #include "validation/machine.hpp"
 #include "validation/scaling_run.hpp"
 #include "validation/studies.hpp"
@@ -56,6 +57,11 @@ const std::vector<Study> studies = {
      20,
      900},
     {"scaling", "Speedup and efficiency of ranks and threads", {treejet::study_scaling}, 5, 300},
+    {"distributed",
+     "A chain held in pieces: bytes, memory, accuracy, a model of many ranks",
+     {treejet::study_distributed},
+     6,
+     400},
     {"determinism", "The same bytes on any number of ranks and threads", {treejet::study_determinism}, 6, 30},
     {"restart", "Runs killed at random moments and resumed", {treejet::study_restart}, 8, 120}};
 
@@ -136,6 +142,16 @@ int main(int argc, char** argv) {
   single.add_option("--evaluations", scaling_run.evaluations, "how many to measure")
       ->check(CLI::Range(1, 1000000000));
   single.add_flag("--tree", tree, "Coulomb sum by the tree");
+  treejet::DistributedRun distributed_run;
+  auto& pieces =
+      *app.add_subcommand("distributed-run", "One measured field of a chain held in pieces, by ranks");
+  pieces.add_option("--chain", distributed_run.chain, "jet or coil")->check(CLI::IsMember({"jet", "coil"}));
+  pieces.add_option("--points", distributed_run.points, "of the whole chain")
+      ->check(CLI::Range(1, 100000000));
+  pieces.add_option("--accuracy", distributed_run.accuracy, "of the field")->check(CLI::Range(1e-12, 0.1));
+  pieces.add_option("--threads", distributed_run.threads, "threads of each rank")->check(CLI::Range(1, 4096));
+  pieces.add_option("--evaluations", distributed_run.evaluations, "the quickest of so many counts")
+      ->check(CLI::Range(1, 1000000));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -143,6 +159,11 @@ int main(int argc, char** argv) {
   }
   treejet::Ranks ranks;
   try {
+    if (pieces.parsed()) {
+      ranks = treejet::join_ranks();
+      fmt::print("{}", text(measure(distributed_run, ranks)));
+      return 0;
+    }
     if (single.parsed()) {
       ranks = treejet::join_ranks();
       if (tree) scaling_run.sum = treejet::CoulombSum::tree;

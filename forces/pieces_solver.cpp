@@ -1,0 +1,168 @@
+#include "forces/pieces_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "forces/coulomb_calibration.hpp"
+#include "forces/pieces_sample.hpp"
+
+namespace treejet {
+
+namespace {
+
+bool differs_by(double part, double n, double before) {
+  return std::abs(n - before) > part * before;
+}
+
+/// All pairs are near whatever the order; the moments, which nobody asks for, are short.
+TreeShape all_pairs() {
+  return {.order = 2, .opening = 0, .leaf = 32, .block = 0, .single = false, .local = true};
+}
+
+}  // namespace
+
+PiecesSolver::PiecesSolver(const CoulombRequest& request, const Ranks& ranks, VectorPath path)
+    : request_(request), ranks_(ranks), path_(path), pieces_(ranks, path) {
+  require_valid(request);
+  report_.error.asked = request.accuracy;
+}
+
+void PiecesSolver::field(const PointCharges<3>& piece, const FieldArrays<3>& field, Threads threads) {
+  arrange(piece, threads);
+  report_.interactions = pieces_.evaluate(threads);
+  pieces_.give(field);
+  bool finite = true;
+  for (int i = 0; i < piece.n; ++i) finite = finite && std::isfinite(field[0][i] + field[1][i] + field[2][i]);
+  if (ranks_.greatest(finite ? 0 : 1) > 0)
+    throw NumericalError("two points are at one place, or a coordinate is not finite");
+}
+
+void PiecesSolver::arrange(const PointCharges<3>& piece, Threads threads) {
+  double n = piece.n;
+  ranks_.sum({&n, 1});
+  if (report_.error.choices == 0 || differs_by(report_.direct ? 0.1 : 0.5, n, chosen_for_))
+    return choose(piece, n, threads);
+  if (report_.direct) return pieces_.arrange(piece, report_.shape, threads);
+  ++since_measurement_;
+  const bool due = since_measurement_ >= measuring_interval(n) || differs_by(0.05, n, measured_for_);
+  const bool keep_order = !due && ++since_sort_ < sorted_every;
+  if (!keep_order) since_sort_ = 0;
+  pieces_.arrange(piece, report_.shape, threads, keep_order);
+  if (due) measure(piece, n, threads);
+}
+
+/// A measurement takes an evaluation of all points and direct sums of the sample.
+double PiecesSolver::measuring_interval(double n) const {
+  if (request_.measured_every) return *request_.measured_every;
+  const double work = report_.work * n / chosen_for_;
+  return std::min(1e6, (work + sampled_points_of_pieces * n / ranks_.size()) / (measuring_share * work));
+}
+
+void PiecesSolver::measure(const PointCharges<3>& piece, double n, Threads threads) {
+  const PiecesSample sample(pieces_, ranks_, path_, threads);
+  report_.record(sample.error(pieces_, threads));
+  since_measurement_ = 0;
+  measured_for_ = n;
+  TreeShape& shape = report_.shape;
+  for (int k = 0; k < narrowings && report_.expected_error > request_.accuracy && !request_.opening; ++k) {
+    shape.opening *= narrowing;
+    pieces_.reopen(shape.opening);
+    report_.record(sample.error(pieces_, threads));
+    report_.error.method = description(report_);
+  }
+  if (report_.expected_error > request_.accuracy && !(request_.order && request_.opening))
+    choose(piece, n, threads);
+}
+
+void PiecesSolver::choose(const PointCharges<3>& piece, double n, Threads threads) {
+  report_.work = std::numeric_limits<double>::infinity();
+  report_.direct = true;
+  report_.reason = "asked for";
+  report_.expected_error = report_.error.l2 = report_.error.max = 0;
+  if (request_.method == CoulombMethod::automatic && n < direct_below(request_.accuracy, path_)) {
+    report_.reason = "fewer points than the crossover of the table";
+  } else if (request_.method != CoulombMethod::direct) {
+    TreeShape shape;
+    shape.order = request_.order.value_or(usual_order(request_.accuracy));
+    shape.opening = request_.opening.value_or(0.4);
+    shape.leaf = request_.leaf.value_or(32);
+    choose_order_of_points(piece, shape, threads);
+    search(piece, shape, threads);
+  }
+  if (report_.direct) report_.shape = all_pairs();
+  report_.error.method = description(report_);
+  ++report_.error.choices;
+  chosen_for_ = measured_for_ = n;
+  since_measurement_ = since_sort_ = 0;
+  pieces_ = CoulombPieces(ranks_, path_);  // what was seen at other shapes may have taken more room
+  pieces_.arrange(piece, report_.shape, threads);
+}
+
+/// Chain or space: whichever needs the least work at this shape, each piece by itself: in an order that suits
+/// the chain ill, pieces would show each other nearly all they hold.
+void PiecesSolver::choose_order_of_points(const PointCharges<3>& piece, TreeShape& shape, Threads threads) {
+  double least = std::numeric_limits<double>::infinity();
+  int best = 0;
+  for (int block : {0, 16, 4, 1}) {
+    if (request_.space && *request_.space != (block > 0)) continue;
+    shape.block = block;
+    pieces_.arrange_alone(piece, shape, threads);
+    const double work = this->work();
+    if (work < least) least = work, best = block;
+  }
+  shape.block = best;
+}
+
+/// The cheapest of a few orders, each with the widest opening that is accurate enough.
+void PiecesSolver::search(const PointCharges<3>& piece, TreeShape shape, Threads threads) {
+  pieces_.arrange(piece, shape, threads);
+  const PiecesSample sample(pieces_, ranks_, path_, threads);
+  SampledError best;
+  report_.reason = "no tree is as accurate as asked for";
+  for (int order : {shape.order, shape.order + 1, shape.order - 1}) {
+    if (order < 2 || order > 14 || (request_.order && order != *request_.order)) continue;
+    shape.order = order;
+    pieces_.arrange(piece, shape, threads, true);
+    const auto error = find_opening(sample, threads);
+    const double work = error ? this->work() : report_.work;
+    if (!(work < report_.work)) continue;
+    report_.direct = false;
+    report_.shape = pieces_.shape();
+    report_.work = work;
+    best = *error;
+  }
+  if (report_.direct) return;
+  report_.reason =
+      best.bound <= request_.accuracy ? "cheapest accurate shape" : "pinned: less accurate than asked for";
+  const double n = sample.points();
+  if (request_.method == CoulombMethod::automatic && report_.work > 0.9 * n * n / ranks_.size()) {
+    report_.direct = true;
+    report_.reason = "no tree of this accuracy would be faster";
+  } else {
+    report_.record(best);
+  }
+}
+
+/// The error at the widest opening that is accurate enough, or at that pinned with the order. An opening much
+/// narrower than that of a shape already found would cost more than the order saves, and show every rank much
+/// of the other pieces.
+std::optional<SampledError> PiecesSolver::find_opening(const PiecesSample& sample, Threads threads) {
+  const double narrowest = report_.direct ? narrowest_opening : 0.6 * report_.shape.opening;
+  for (double opening = request_.opening.value_or(widest_opening); opening > narrowest;
+       opening *= opening_step) {
+    pieces_.reopen(opening);
+    const SampledError error = sample.error(pieces_, threads);
+    if (error.bound <= request_.accuracy || (request_.opening && request_.order)) return error;
+    if (request_.opening) break;
+  }
+  return {};
+}
+
+/// Of an evaluation, by the rank that has most of it.
+double PiecesSolver::work() {
+  return ranks_.greatest(price(pieces_.count(), pieces_.shape(), pieces_.own_points(), path_));
+}
+
+}  // namespace treejet

@@ -1,0 +1,46 @@
+#include "validation/team.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/error.hpp"
+
+namespace treejet {
+
+std::string mpi_launcher() {
+  return TREEJET_MPIEXEC;
+}
+
+namespace {
+
+/// Open MPI is told by its environment, which others ignore.
+std::string environment(const Team& team, bool pinned) {
+  std::string text =
+      fmt::format("OMP_NUM_THREADS={} OMP_WAIT_POLICY={} ", team.threads, pinned ? "active" : "passive");
+  if (pinned) text += "OMP_PROC_BIND=close OMP_PLACES=cores ";
+  if (team.ranks == 1) return text;
+  text += "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 ";
+  return text +
+         fmt::format("OMPI_MCA_hwloc_base_binding_policy={} OMPI_MCA_rmaps_base_mapping_policy=slot:PE={} ",
+                     pinned ? "core" : "none", pinned ? team.threads : 1);
+}
+
+}  // namespace
+
+std::string output(const Team& team, int cores, const std::string& arguments) {
+  std::string line = environment(team, team.workers() <= cores);
+  if (team.ranks > 1) line += fmt::format("'{}' -n {} ", mpi_launcher(), team.ranks);
+  line += fmt::format("'{}' {}", std::filesystem::read_symlink("/proc/self/exe").string(), arguments);
+  std::FILE* pipe = popen(line.c_str(), "r");
+  if (!pipe) throw FileError("cannot start " + line);
+  std::string all;
+  for (std::array<char, 512> some; std::fgets(some.data(), some.size(), pipe);) all += some.data();
+  const auto at = all.find("measured ");
+  if (pclose(pipe) != 0 || at == std::string::npos) throw FileError("failed: " + line);
+  return all.substr(at);
+}
+
+}  // namespace treejet
