@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/holding.hpp"
 #include "core/output_file.hpp"
 #include "core/parameters.hpp"
 #include "core/run_record.hpp"
@@ -40,7 +41,7 @@ class Outputs {
  public:
   /// Opens the files; FileError if one exists already or cannot be made.
   Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
-          const OutputSetting& setting);
+          const OutputSetting& setting, const Holding<D>& holding = held_whole<D>);
   ~Outputs();
 
   std::vector<Watcher<D>*> watchers() const;
@@ -50,6 +51,9 @@ class Outputs {
   void visit(State& state);
 
  private:
+  void contribute(const Parameters& p, const OutputSetting& setting, const Holding<D>& holding);
+  template <class Samples>
+  Samples& watch(const std::string& name, std::unique_ptr<Samples> watcher, const Holding<D>& holding);
   std::shared_ptr<TrajectoryFile> trajectory_file(const Parameters& p, const OutputSetting& setting);
   void keep_record(const OutputSetting& setting);
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/collector.hpp"
+#include "core/holding.hpp"
 #include "core/nozzle.hpp"
 #include "core/watcher.hpp"
 #include "integrators/step_control.hpp"
@@ -41,6 +42,7 @@ class March {
     double tolerance = 0;  ///< of the step control; 0 with fixed steps
     std::vector<Watcher<D>*> watchers;
     std::function<bool()> pause = {};  ///< asked between any two steps: whether to stop there
+    Holding<D>& holding = held_whole<D>;
   };
 
   explicit March(const Parts& parts) : parts_(parts), one_(1, 2 * D + 1) {}
