@@ -77,7 +77,7 @@ class Composer {
       left_out.push_back({"surface tension", "a straight jet (system 1) has no curvature"});
     }
     if (in_pieces()) {
-      note(g_.Q != 0, "Coulomb sum of a jet in pieces", "parallel distributed", "density charge is 0");
+      note(g_.Q != 0, "Coulomb sum of all pieces", "parallel distributed", "density charge is 0");
     } else {
       add(
           g_.Q != 0, "density charge is 0", [&] { return coulomb(); }, "Coulomb sum");
