@@ -10,8 +10,8 @@
 /// piece has grown a fifth beyond its share, or that at the collector is down to one bead, the chain is cut
 /// anew. Pieces have at least four beads: in a short chain some ranks have none.
 ///
-/// Weak: what looks at neighbouring rows (integrators/diagnosis.hpp) takes the own beads next to a copy for its
-/// neighbours, and sees no element from one piece to the next.
+/// Weak: what looks at neighbouring rows (integrators/diagnosis.hpp) takes the own beads next to a copy for
+/// its neighbours, and sees no element from one piece to the next.
 
 #include <vector>
 
