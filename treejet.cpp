@@ -50,21 +50,28 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* ch
   const auto existing = a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
   // ranks meet signals at different steps and have clocks of their own: the first one's clock counts, and all
   // follow the strongest wish
-  Interruption interruption(ranks.first() ? Interruption::Setting{p.checkpoint, a.walltime}
-                                          : Interruption::Setting{});
-  const auto wish = [&] { return Wish{ranks.greatest(static_cast<int>(interruption.wish()))}; };
+  std::optional<Interruption> interruption;
+  if (p.parallel == ParallelData::replicated)
+    interruption.emplace(ranks.first() ? Interruption::Setting{p.checkpoint, a.walltime}
+                                       : Interruption::Setting{});
+  else if (a.walltime)
+    throw InputError("--walltime needs a checkpoint, and parallel distributed writes none");
+  const auto wish = [&] {
+    return interruption ? Wish{ranks.greatest(static_cast<int>(interruption->wish()))} : Wish::go_on;
+  };
   Scene<D> scene = compose<D>(p, each, ranks);
-  Simulation<D> simulation(deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
-                           {{directory,
-                             existing,
-                             a.quiet,
-                             !ranks.first(),
-                             provenance(deck, vector_path()),
-                             {ranks.size(), each.count},
-                             scene.force_error()},
-                            version_text(),
-                            wish,
-                            checkpoint});
+  Simulation<D> simulation(
+      deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector, scene.holding()},
+      {{directory,
+        existing,
+        a.quiet,
+        !ranks.first(),
+        provenance(deck, vector_path()),
+        {ranks.size(), each.count},
+        scene.force_error()},
+       version_text(),
+       wish,
+       checkpoint});
   if (!a.quiet) {
     fmt::print("{}\n{}\n{}{}", version_text(), deck.name, notes(deck),
                composition(scene.composed, scene.left_out));
@@ -76,7 +83,7 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* ch
     ranks.greatest(stopped_early);  // no rank ends before the first one has written the checkpoint
     if (ranks.first())
       fmt::print(stderr, "treejet: stopped at t = {:.6g} s by {}; to go on: treejet run --resume {}\n",
-                 simulation.t(), interruption.reason(), directory);
+                 simulation.t(), interruption->reason(), directory);
     return stopped_early;
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -103,8 +110,8 @@ void check(const Deck& deck) {
   fmt::print("{}, {}\n", name(chosen_scheme(p)), steps_description(p));
   std::fflush(stdout);
   constexpr double trial_seconds = 1;
-  const Trial trial =
-      trial_run<D>(p, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector}, trial_seconds);
+  const Trial trial = trial_run<D>(
+      p, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector, scene.holding()}, trial_seconds);
   const bool all_pairs = !scene.two_rates && p.coulomb == CoulombSum::direct && !p.cutoff;
   fmt::print("{}", plan_description(p, trial, all_pairs));
 }

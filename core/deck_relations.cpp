@@ -7,6 +7,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "core/stiffness.hpp"
+
 namespace treejet {
 
 namespace {
@@ -26,6 +28,7 @@ class Relations {
     coulomb_sum();
     fluid();
     output();
+    pieces();
   }
 
  private:
@@ -119,6 +122,28 @@ class Relations {
     for (const char* detail : {"print xyz maxnum", "print xyz rescale"})
       note(!p_.print_xyz && is_given(detail), detail, "no effect without print xyz and an interval");
     note(is_given("seed"), "seed", "no effect: nothing here is random");
+  }
+
+  /// What a jet held in pieces cannot do.
+  void pieces() {
+    if (p_.parallel == ParallelData::replicated) return;
+    error(p_.system == 1, {"parallel", "system"}, "expected parallel replicated in system 1");
+    error(p_.coulomb == CoulombSum::direct, {"parallel", "coulomb"},
+          "expected coulomb tree or coulomb auto: a direct sum needs all beads on every rank");
+    error(p_.coulomb_expansions == ExpansionKind::none, {"parallel", "coulomb expansions"},
+          "expected coulomb expansions local");
+    error(p_.tolerance && p_.multirate != Multirate::no, {"parallel", "multirate"},
+          "expected multirate no: all forces are evaluated at each stage");
+    error(p_.checkpoint.has_value(), {"parallel", "checkpoint"},
+          "expected no checkpoint: none can be written");
+    if (sound("viscosity") && sound("elastic modulus"))
+      error(chosen_scheme(p_) == Scheme::kencarp5, {"parallel", "integrator"},
+            "expected an explicit integrator: the local terms of a chain in pieces are not solved for");
+    for (const auto* list : {&p_.print_list, &p_.printstat_list})
+      for (const char* key : {"lp", "rlp"})
+        error(std::count(list->begin(), list->end(), key) > 0,
+              {"parallel", list == &p_.print_list ? "print list" : "printstat list"},
+              fmt::format("expected no {} in the lists: the path along the jet is not followed", key));
   }
 
   const Given* find(std::string_view words) const { return treejet::find(given_, directive(words)); }

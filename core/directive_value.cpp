@@ -42,6 +42,8 @@ constexpr Word<CoulombSum> coulomb_sums[] = {
 constexpr Word<TreeOrder> tree_orders[] = {
     {"auto", TreeOrder::automatic}, {"chain", TreeOrder::chain}, {"space", TreeOrder::space}};
 constexpr Word<ExpansionKind> expansions[] = {{"local", ExpansionKind::local}, {"none", ExpansionKind::none}};
+constexpr Word<ParallelData> parallel_data[] = {{"replicated", ParallelData::replicated},
+                                                {"distributed", ParallelData::distributed}};
 
 std::span<const Word<bool>> words_of(bool) {
   return yes_no;
@@ -66,6 +68,9 @@ std::span<const Word<TreeOrder>> words_of(TreeOrder) {
 }
 std::span<const Word<ExpansionKind>> words_of(ExpansionKind) {
   return expansions;
+}
+std::span<const Word<ParallelData>> words_of(ParallelData) {
+  return parallel_data;
 }
 
 template <class T>

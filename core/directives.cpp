@@ -113,6 +113,11 @@ const Directive table[] = {
     {.words = "coulomb expansions", .member = &P::coulomb_expansions,
      .meaning = "local: dual tree with local expansions; none: Barnes and Hut's, cells on beads"},
 
+    {.words = "parallel", .member = &P::parallel,
+     .meaning = "what ranks hold: all of the jet each (replicated), or a piece each (distributed), for 1e6 beads and "
+                "more; needs system 3, coulomb tree or auto, multirate no; no checkpoints, lp or rlp",
+     .heading = "Ranks"},
+
     {.words = "print time", .member = &P::print_time, .unit = "s", .check = positive,
      .meaning = "interval of the tables", .absent = "1000 timesteps; a hundredth of final time with tolerance",
      .example = "1.d-2", .heading = "Output"},

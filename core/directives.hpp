@@ -28,7 +28,8 @@ using Member =
     std::variant<double Parameters::*, std::optional<double> Parameters::*, int Parameters::*,
                  std::optional<int> Parameters::*, bool Parameters::*, std::vector<std::string> Parameters::*,
                  Scheme Parameters::*, EventRule Parameters::*, Multirate Parameters::*, Units Parameters::*,
-                 CoulombSum Parameters::*, TreeOrder Parameters::*, ExpansionKind Parameters::*, Ignored>;
+                 CoulombSum Parameters::*, TreeOrder Parameters::*, ExpansionKind Parameters::*,
+                 ParallelData Parameters::*, Ignored>;
 
 struct Directive {
   std::string_view words;

@@ -32,6 +32,7 @@ class ErrorNorm {
   template <class Table>
   double operator()(const Table& e, const Table& y) const {
     constexpr int D = (Table::ColsAtCompileTime - 1) / 2;
+    if (y.rows() == 0) return 0;
     const auto v = y.template middleCols<D>(velocity_column<D>).abs();
     const auto sigma = y.col(stress_column<D>).abs();
     const double length = e.template leftCols<D>().abs().maxCoeff() / length_;

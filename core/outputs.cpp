@@ -29,6 +29,15 @@ std::vector<std::string> after_time(std::vector<std::string> keys) {
   return keys;
 }
 
+template <int D>
+class Contribution final : public Sampling<D> {
+ public:
+  using Sampling<D>::Sampling;
+
+ private:
+  void sample(const Jet<D>&) override {}
+};
+
 /// Closes the record when all else is finished.
 template <int D>
 class RecordKeeper final : public Watcher<D> {
@@ -44,9 +53,12 @@ class RecordKeeper final : public Watcher<D> {
 
 template <int D>
 Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
-                    const OutputSetting& setting)
+                    const OutputSetting& setting, const Holding<D>& holding)
     : maxnum_(p.xyz_maxnum), force_error_(setting.force_error) {
-  if (setting.elsewhere) return;
+  if (setting.elsewhere) {
+    contribute(p, setting, holding);
+    return;
+  }
   if (p.print_hdf5 || p.print_xyz || !p.printstat_list.empty()) lock_.emplace(setting.directory);
   const Scales s = scales(p);
   const auto file = [&](const char* name) {
@@ -67,20 +79,19 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
                 std::make_unique<StatFile>(file("statdat.dat"), p.printstat_list, setting.made_by));
     }
     if (!observables.empty()) rows->add(after_time(observables), std::make_unique<Hdf5Rows>(hdf5));
-    watchers_.push_back({"rows", std::move(rows)});
+    watch("rows", std::move(rows), holding);
   }
   if (p.print_xyz) {
     auto trajectory = std::make_unique<Trajectory<D>>(
         typename Trajectory<D>::Setting{nozzle, s, *p.print_xyz / s.time, p.xyz_maxnum, p.xyz_rescale,
                                         program(setting.made_by)},
         file("traj.xyz"));
-    trajectory_ = trajectory.get();
-    watchers_.push_back({"traj.xyz", std::move(trajectory)});
+    trajectory_ = &watch("traj.xyz", std::move(trajectory), holding);
   }
   if (hdf5) {
     using Frames = Hdf5Trajectory<D>;
     const typename Frames::Setting frames{nozzle, s, p.nozzle_cross, *p.print_hdf5 / s.time};
-    watchers_.push_back({"traj.h5", std::make_unique<Frames>(frames, hdf5)});
+    watch("traj.h5", std::make_unique<Frames>(frames, hdf5), holding);
   }
   if (!files_.empty()) keep_record(setting);
   if (force_error_)
@@ -89,6 +100,31 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
     watchers_.push_back(
         {"progress", std::make_unique<Progress<D>>(p.final_time / s.time, s.time, stderr_is_interactive())});
   }
+}
+
+template <int D>
+template <class Samples>
+Samples& Outputs<D>::watch(const std::string& name, std::unique_ptr<Samples> watcher,
+                           const Holding<D>& holding) {
+  Samples& watching = *watcher;
+  watching.sample_whole(holding);
+  watchers_.push_back({name, std::move(watcher)});
+  return watching;
+}
+
+/// What another rank writes from the whole jet, this one sends its piece for, in the same order.
+template <int D>
+void Outputs<D>::contribute(const Parameters& p, const OutputSetting& setting, const Holding<D>& holding) {
+  if (holding.whole_here()) return;
+  const Scales s = scales(p);
+  const auto contribution = [&](double interval) {
+    watch("", std::make_unique<Contribution<D>>(interval / s.time), holding);
+  };
+  if ((!p.print_list.empty() && !setting.quiet) || !p.printstat_list.empty() ||
+      (p.print_hdf5 && !reproducible_keys(p.print_list).empty()))
+    contribution(print_interval(p));
+  if (p.print_xyz) contribution(*p.print_xyz);
+  if (p.print_hdf5) contribution(*p.print_hdf5);
 }
 
 template <int D>

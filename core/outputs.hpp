@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/directory_lock.hpp"
+#include "core/holding.hpp"
 #include "core/output_file.hpp"
 #include "core/parameters.hpp"
 #include "core/run_record.hpp"
@@ -42,7 +43,7 @@ class Outputs {
  public:
   /// Opens the files; FileError if one exists already or cannot be made, or if another run writes there.
   Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
-          const OutputSetting& setting);
+          const OutputSetting& setting, const Holding<D>& holding = held_whole<D>);
   ~Outputs();
 
   std::vector<Watcher<D>*> watchers() const;
@@ -52,6 +53,9 @@ class Outputs {
   void visit(State& state);
 
  private:
+  void contribute(const Parameters& p, const OutputSetting& setting, const Holding<D>& holding);
+  template <class Samples>
+  Samples& watch(const std::string& name, std::unique_ptr<Samples> watcher, const Holding<D>& holding);
   std::shared_ptr<TrajectoryFile> trajectory_file(const Parameters& p, const OutputSetting& setting);
   void keep_record(const OutputSetting& setting);
 

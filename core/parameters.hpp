@@ -15,6 +15,7 @@ enum class Units { cgs, real };
 enum class CoulombSum { direct, tree, automatic };
 enum class TreeOrder { automatic, chain, space };
 enum class ExpansionKind { local, none };
+enum class ParallelData { replicated, distributed };
 
 /// How the Coulomb sum is made; what is not given the program chooses.
 struct CoulombSetting {
@@ -72,6 +73,8 @@ struct Parameters : CoulombSetting {
   int xyz_maxnum = 100;
   double xyz_rescale = 1;
   std::optional<double> print_hdf5;  ///< s
+
+  ParallelData parallel = ParallelData::replicated;
 
   std::optional<double> checkpoint;  ///< s of wall-clock time
 };

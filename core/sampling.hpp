@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/holding.hpp"
 #include "core/watcher.hpp"
 
 namespace treejet {
@@ -12,6 +13,9 @@ template <int D>
 class Sampling : public Watcher<D> {
  public:
   explicit Sampling(double interval) : interval_(interval) {}
+
+  /// Of a chain held in pieces all ranks sample together: `sample` sees the whole jet on the first one.
+  void sample_whole(const Holding<D>& holding) { holding_ = &holding; }
 
   void start(const Jet<D>& jet) override {
     count_ = 0;
@@ -48,10 +52,11 @@ class Sampling : public Watcher<D> {
 
   void take(const Jet<D>& jet, double t, const Table<D>& y) {
     Jet<D> then{t, y, jet.mass, jet.charge, jet.held, jet.removed};
-    sample(then);
+    sample(holding_->whole(std::move(then)));
     ++count_;
   }
 
+  const Holding<D>* holding_ = &held_whole<D>;
   double interval_;
   std::int64_t count_ = 0;
 };

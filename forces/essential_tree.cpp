@@ -12,7 +12,7 @@ namespace treejet {
 namespace {
 
 /// Balls of all outlines together, and of one.
-constexpr int all_balls = 8192, least_balls = 32, most_balls = 256;
+constexpr int all_balls = 8192, least_balls = 8, most_balls = 256;
 /// Words of a ball on a card: centre, radius, largest radius of a leaf.
 constexpr int ball_words = 5;
 /// Words of a cell in a letter before its moments: centre, radius, children, points.

@@ -40,17 +40,26 @@ void PiecesSolver::field(const PointCharges<3>& piece, const FieldArrays<3>& fie
 }
 
 void PiecesSolver::arrange(const PointCharges<3>& piece, Threads threads) {
-  double n = piece.n;
-  ranks_.sum({&n, 1});
+  double sums[] = {double(piece.n), cut_anew(piece.n) ? 1.0 : 0.0};
+  ranks_.sum(sums);
+  const double n = sums[0];
+  const bool other_pieces = sums[1] > 0;
   if (report_.error.choices == 0 || differs_by(report_.direct ? 0.1 : 0.5, n, chosen_for_))
     return choose(piece, n, threads);
   if (report_.direct) return pieces_.arrange(piece, report_.shape, threads);
   ++since_measurement_;
-  const bool due = since_measurement_ >= measuring_interval(n) || differs_by(0.05, n, measured_for_);
+  const bool due =
+      other_pieces || since_measurement_ >= measuring_interval(n) || differs_by(0.05, n, measured_for_);
   const bool keep_order = !due && ++since_sort_ < sorted_every;
   if (!keep_order) since_sort_ = 0;
   pieces_.arrange(piece, report_.shape, threads, keep_order);
   if (due) measure(piece, n, threads);
+}
+
+/// Whether this piece has become another one, whose leaves stand elsewhere.
+bool PiecesSolver::cut_anew(int n) const {
+  constexpr int few = 4;
+  return std::abs(n - measured_piece_) > few && differs_by(0.1, n, measured_piece_);
 }
 
 /// A measurement takes an evaluation of all points and direct sums of the sample.
@@ -65,6 +74,7 @@ void PiecesSolver::measure(const PointCharges<3>& piece, double n, Threads threa
   report_.record(sample.error(pieces_, threads));
   since_measurement_ = 0;
   measured_for_ = n;
+  measured_piece_ = piece.n;
   TreeShape& shape = report_.shape;
   for (int k = 0; k < narrowings && report_.expected_error > request_.accuracy && !request_.opening; ++k) {
     shape.opening *= narrowing;
@@ -88,27 +98,31 @@ void PiecesSolver::choose(const PointCharges<3>& piece, double n, Threads thread
     shape.order = request_.order.value_or(usual_order(request_.accuracy));
     shape.opening = request_.opening.value_or(0.4);
     shape.leaf = request_.leaf.value_or(32);
-    choose_order_of_points(piece, shape, threads);
+    choose_order_of_points(piece, n, shape, threads);
     search(piece, shape, threads);
   }
   if (report_.direct) report_.shape = all_pairs();
   report_.error.method = description(report_);
   ++report_.error.choices;
   chosen_for_ = measured_for_ = n;
+  measured_piece_ = piece.n;
   since_measurement_ = since_sort_ = 0;
   pieces_ = CoulombPieces(ranks_, path_);  // what was seen at other shapes may have taken more room
   pieces_.arrange(piece, report_.shape, threads);
 }
 
-/// Chain or space: whichever needs the least work at this shape, each piece by itself: in an order that suits
-/// the chain ill, pieces would show each other nearly all they hold.
-void PiecesSolver::choose_order_of_points(const PointCharges<3>& piece, TreeShape& shape, Threads threads) {
+/// Chain or space: whichever needs the least work at this shape. Long pieces are looked at each by itself: in
+/// an order that suits the chain ill, they would show each other nearly all they hold.
+void PiecesSolver::choose_order_of_points(const PointCharges<3>& piece, double n, TreeShape& shape,
+                                          Threads threads) {
+  constexpr double long_piece = 4096;
   double least = std::numeric_limits<double>::infinity();
   int best = 0;
   for (int block : {0, 16, 4, 1}) {
     if (request_.space && *request_.space != (block > 0)) continue;
     shape.block = block;
     pieces_.arrange_alone(piece, shape, threads);
+    if (n < long_piece * ranks_.size()) pieces_.reopen(shape.opening);
     const double work = this->work();
     if (work < least) least = work, best = block;
   }
@@ -154,8 +168,12 @@ std::optional<SampledError> PiecesSolver::find_opening(const PiecesSample& sampl
        opening *= opening_step) {
     pieces_.reopen(opening);
     const SampledError error = sample.error(pieces_, threads);
-    if (error.bound <= request_.accuracy || (request_.opening && request_.order)) return error;
+    if (request_.opening && (request_.order || error.bound <= request_.accuracy)) return error;
     if (request_.opening) break;
+    if (error.bound > request_.accuracy) continue;
+    // if all pairs are near this is a direct sum in disguise, whose error tells nothing of the shape
+    if (ranks_.greatest(double(pieces_.count().expansions)) > 0) return error;
+    break;
   }
   return {};
 }

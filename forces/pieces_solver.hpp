@@ -7,9 +7,9 @@
 ///
 /// `accuracy` is the relative L2 error of the field over all pieces. It is measured, not assumed: at sampled
 /// leaves of all pieces against exact sums, to which every rank adds what its own points do, with the same
-/// allowances as in coulomb_solver.hpp; again when the number of points has changed by a twentieth, and so
-/// often that it takes 3 % of the work. All ranks learn the same figures and take the same decisions, none of
-/// them from a clock.
+/// allowances as in coulomb_solver.hpp; again when the number of points has changed by a twentieth or the
+/// chain has been cut anew, and so often that it takes 3 % of the work. All ranks learn the same figures and
+/// take the same decisions, none of them from a clock.
 ///
 /// Below the crossover, or where no tree is as accurate, the sum is direct: every rank is then sent all
 /// points. Left out: near fields in single precision, Barnes-Hut.
@@ -39,12 +39,13 @@ class PiecesSolver {
  private:
   void arrange(const PointCharges<3>& piece, Threads threads);
   void choose(const PointCharges<3>& piece, double n, Threads threads);
-  void choose_order_of_points(const PointCharges<3>& piece, TreeShape& shape, Threads threads);
+  void choose_order_of_points(const PointCharges<3>& piece, double n, TreeShape& shape, Threads threads);
   void search(const PointCharges<3>& piece, TreeShape shape, Threads threads);
   std::optional<SampledError> find_opening(const PiecesSample& sample, Threads threads);
   void measure(const PointCharges<3>& piece, double n, Threads threads);
   double work();
   double measuring_interval(double n) const;
+  bool cut_anew(int n) const;
 
   CoulombRequest request_;
   Ranks ranks_;
@@ -52,6 +53,7 @@ class PiecesSolver {
   CoulombPieces pieces_;
   CoulombReport report_;
   double chosen_for_ = 0, measured_for_ = 0;  ///< points of all pieces
+  int measured_piece_ = 0;                    ///< points of this one
   int since_measurement_ = 0, since_sort_ = 0;
 };
 

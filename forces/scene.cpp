@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "core/stiffness.hpp"
 #include "forces/constitutive.hpp"
 #include "forces/coulomb_force.hpp"
 #include "forces/coulomb_request.hpp"
+#include "forces/pieces_motion.hpp"
 #include "forces/surface_tension.hpp"
 #include "forces/uniform.hpp"
 #include "forces/viscoelastic.hpp"
@@ -16,19 +18,19 @@ namespace treejet {
 
 namespace {
 
-/// Beads at x_i = initial length - i l_step, at the nozzle velocity and stress.
+/// Beads at x_i = initial length - i l_step, at the nozzle velocity and stress: those with these numbers.
 template <int D>
-Jet<D> initial_jet(const Parameters& p) {
+Jet<D> initial_jet(const Parameters& p, const std::vector<int>& beads) {
   const Scales s = scales(p);
-  const int n = initial_elements(p);
+  const auto n = static_cast<Eigen::Index>(beads.size());
   Vec<D> r = Vec<D>::Zero(), v = Vec<D>::Zero();
   v[0] = p.nozzle_velocity / s.velocity;
   Jet<D> jet;
   jet.y.resize(n, Eigen::NoChange);
   jet.mass.setOnes(n);
   jet.charge.setOnes(n);
-  for (int i = 0; i < n; ++i) {
-    r[0] = (n - i) * s.l_step / s.length;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    r[0] = (initial_elements(p) - beads[static_cast<std::size_t>(i)]) * s.l_step / s.length;
     jet.y.row(i) << r.transpose().array(), v.transpose().array(), p.nozzle_stress / s.stress;
   }
   return jet;
@@ -74,8 +76,12 @@ class Composer {
     } else {
       left_out.push_back({"surface tension", "a straight jet (system 1) has no curvature"});
     }
-    add(
-        g_.Q != 0, "density charge is 0", [&] { return coulomb(); }, "Coulomb sum");
+    if (in_pieces()) {
+      note(g_.Q != 0, "Coulomb sum of all pieces", "parallel distributed", "density charge is 0");
+    } else {
+      add(
+          g_.Q != 0, "density charge is 0", [&] { return coulomb(); }, "Coulomb sum");
+    }
     return std::move(terms_);
   }
 
@@ -85,6 +91,8 @@ class Composer {
     note(p_.perturb, "circling nozzle", "perturb yes", "no perturb yes");
   }
 
+  bool in_pieces() const { return p_.parallel == ParallelData::distributed; }
+
   /// Two rates need an error to hold, and a sum over all pairs to take apart.
   bool two_rates() {
     const char* why_not = !p_.tolerance                           ? "a fixed timestep has no error to hold"
@@ -92,6 +100,7 @@ class Composer {
                           : p_.cutoff                             ? "cutoff"
                           : chosen_scheme(p_) == Scheme::kencarp5 ? "a scheme that solves for the local terms"
                           : g_.Q == 0                             ? "no Coulomb sum"
+                          : in_pieces()                           ? "parallel distributed"
                           : stiffness(p_).relaxes_between_beads()
                               ? "stress relaxes within the interval of beads"
                               : nullptr;
@@ -124,6 +133,23 @@ class Composer {
   std::vector<std::unique_ptr<ForceTerm<D>>> terms_;
 };
 
+std::vector<int> whole_jet(const Parameters& p) {
+  std::vector<int> beads(static_cast<std::size_t>(initial_elements(p)));
+  std::iota(beads.begin(), beads.end(), 0);
+  return beads;
+}
+
+/// Puts the motion of a jet in pieces on top of the local terms.
+void hold_in_pieces(Scene<3>& scene, const Parameters& p, Threads threads, const Ranks& ranks) {
+  auto pieces = std::make_unique<ChainPieces>(initial_elements(p), ranks);
+  auto motion = std::make_unique<PiecesMotion>(*scene.motion, *pieces, threads);
+  if (groups(p).Q != 0) motion->add_coulomb(groups(p).Q, coulomb_request(p));
+  scene.jet = initial_jet<3>(p, pieces->rows());
+  scene.pieces_error = motion->error();
+  scene.pieces_motion = std::move(motion);
+  scene.pieces = std::move(pieces);
+}
+
 }  // namespace
 
 template <int D>
@@ -133,9 +159,13 @@ Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks) {
   auto terms = composer.terms();
   composer.boundaries();
   const Nozzle<D> nozzle(p);
-  Scene<D> scene{initial_jet<D>(p), nozzle, Collector(p), nullptr, nullptr, {}, {}};
+  const std::vector<int> beads = composer.in_pieces() ? std::vector<int>() : whole_jet(p);
+  Scene<D> scene{
+      initial_jet<D>(p, beads), nozzle, Collector(p), nullptr, nullptr, nullptr, nullptr, nullptr, {}, {}};
   scene.motion = std::make_unique<EquationsOfMotion<D>>(nozzle, std::move(law), std::move(terms), threads);
   if (composer.two_rates()) scene.two_rates = std::make_unique<TwoRateMotion<D>>(*scene.motion, ErrorNorm(p));
+  if constexpr (D == 3)
+    if (composer.in_pieces()) hold_in_pieces(scene, p, threads, ranks);
   scene.composed = std::move(composer.composed);
   scene.left_out = std::move(composer.left_out);
   return scene;

@@ -7,6 +7,7 @@
 
 #include "core/collector.hpp"
 #include "core/force_error.hpp"
+#include "core/holding.hpp"
 #include "core/nozzle.hpp"
 #include "core/parameters.hpp"
 #include "forces/equations_of_motion.hpp"
@@ -25,16 +26,25 @@ struct Scene {
   Collector collector;
   std::unique_ptr<EquationsOfMotion<D>> motion;
   std::unique_ptr<TwoRateMotion<D>> two_rates;  ///< null where every term is evaluated at every stage
+  /// Of a jet held in pieces: who holds what, and its motion. Null where every rank holds all of it.
+  std::unique_ptr<Holding<D>> pieces;
+  std::unique_ptr<Motion<D>> pieces_motion;
+  const ForceError* pieces_error = nullptr;
   std::vector<Choice> composed, left_out;
 
   /// The right-hand side to step with.
   Motion<D>& right_hand_side() {
+    if (pieces_motion) return *pieces_motion;
     if (two_rates) return *two_rates;
     return *motion;
   }
 
   /// What is measured of approximate forces, null where all are exact.
-  const ForceError* force_error() const { return motion->coulomb() ? motion->coulomb()->error() : nullptr; }
+  const ForceError* force_error() const {
+    return motion->coulomb() ? motion->coulomb()->error() : pieces_error;
+  }
+
+  Holding<D>& holding() { return pieces ? *pieces : held_whole<D>; }
 };
 
 template <int D>

@@ -122,7 +122,7 @@ void March<D>::give_up() const {
       fmt::format("at scaled time {}: the step has fallen below round-off because of bead {} (number {} "
                   "since the start); "
                   "likely cause: beads have met, or the tolerance is too small to be met",
-                  now_.t, bead, parts_.jet.removed + bead));
+                  now_.t, bead, parts_.holding.before(parts_.jet) + bead));
 }
 
 /// Steps from now_ to next_ until the step control is content; returns the time up to which an event may be
@@ -144,7 +144,7 @@ double March<D>::attempt(double end) {
     if (!(now_.t + h > now_.t)) give_up();
     step(h);
     const bool estimated = parts_.stepper.error.rows() > 0;
-    const double error = estimated ? parts_.norm(parts_.stepper.error, now_.y) : 0;
+    const double error = estimated ? parts_.holding.greatest(parts_.norm(parts_.stepper.error, now_.y)) : 0;
     if (!parts_.control.accepts(now_.t, h, error)) {
       ++effort_.rejected;
       continue;
@@ -159,7 +159,7 @@ void March<D>::start() {
   now_.y = parts_.jet.y;
   for (auto* w : parts_.watchers) w->start(parts_.jet);
   evaluate(now_);
-  halt_if(not_finite<D>(now_.y, now_.slope, parts_.jet.removed), now_.t);
+  halt_if(not_finite<D>(now_.y, now_.slope, parts_.holding.before(parts_.jet)), now_.t);
   under_way_ = true;
 }
 
@@ -169,7 +169,7 @@ bool March<D>::to(double end) {
   while (now_.t < end && now_.y.rows() > 0) {
     if (parts_.pause && parts_.pause()) return false;
     const double reach = attempt(end);
-    halt_if(trouble<D>(now_.y, next_.y, parts_.jet.removed), next_.t);
+    halt_if(trouble<D>(now_.y, next_.y, parts_.holding.before(parts_.jet)), next_.t);
     evaluate(next_);
     if (parts_.events == EventRule::step) {
       commit(std::nullopt);
@@ -236,6 +236,7 @@ void March<D>::insertion() {
   if (jet.held) {
     parts_.nozzle.release(jet);
     parts_.motion.after_release(jet);
+    parts_.holding.after_release(jet);
     ++effort_.released;
   } else {
     parts_.nozzle.place(jet);
@@ -257,6 +258,7 @@ void March<D>::removal() {
   for (auto* w : parts_.watchers) w->event(EventKind::removal, jet);
   parts_.motion.before_removal(jet);
   drop_first<D>(jet);
+  parts_.holding.after_removal(jet);
   ++effort_.removed;
   parts_.control.event(EventKind::removal);
 }

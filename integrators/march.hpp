@@ -16,6 +16,7 @@
 
 #include "core/collector.hpp"
 #include "core/error_norm.hpp"
+#include "core/holding.hpp"
 #include "core/nozzle.hpp"
 #include "core/watcher.hpp"
 #include "integrators/step_control.hpp"
@@ -42,6 +43,7 @@ class March {
     ErrorNorm norm;
     std::vector<Watcher<D>*> watchers;
     std::function<bool()> pause = {};  ///< asked between any two steps: whether to stop there
+    Holding<D>& holding = held_whole<D>;
   };
 
   explicit March(const Parts& parts) : parts_(parts), one_(1, 2 * D + 1) {}

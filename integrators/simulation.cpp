@@ -23,16 +23,17 @@ template <int D>
 Simulation<D>::Simulation(const Deck& deck, const Scene& scene, const Setting& setting)
     : deck_(deck),
       jet_(scene.jet),
+      holding_(scene.holding),
       setting_{output_setting(setting.outputs, setting.resumed), setting.program, setting.wish},
       checkpoints_(setting.outputs.elsewhere
                        ? std::nullopt
                        : std::optional<Checkpoints>({setting_.outputs.directory, setting_.outputs.existing})),
       stepper_(stepper<D>(chosen_scheme(deck.parameters))),
       control_(step_control(deck.parameters)),
-      outputs_(deck.parameters, scene.nozzle, scene.collector, setting_.outputs),
+      outputs_(deck.parameters, scene.nozzle, scene.collector, setting_.outputs, scene.holding),
       march_({scene.jet, scene.motion, *stepper_, *control_, scene.nozzle, scene.collector,
               deck.parameters.events, ErrorNorm(deck.parameters), outputs_.watchers(),
-              [this] { return pause(); }}) {
+              [this] { return pause(); }, scene.holding}) {
   if (setting.resumed) visit(setting.resumed->state);
 }
 
@@ -74,7 +75,7 @@ std::string Simulation<D>::summary() const {
   const Effort& e = march_.effort();
   const double seconds = std::chrono::duration<double>(Clock::now() - started_).count();
   std::string text = fmt::format("done in {:.3g} s: {} beads on the jet, {} inserted, {} arrived\n", seconds,
-                                 jet_.size() + jet_.held, e.placed, e.removed);
+                                 holding_.beads(jet_) + jet_.held, e.placed, e.removed);
   text += fmt::format(
       "{} evaluations of the forces in {} steps ({} rejected, {} made anew for an event), {:.3g} us each\n",
       e.evaluations, e.steps, e.rejected, e.redone, 1e6 * seconds / double(e.evaluations));

@@ -27,6 +27,7 @@ class Simulation {
     Motion<D>& motion;
     const Nozzle<D>& nozzle;
     const Collector& collector;
+    Holding<D>& holding = held_whole<D>;
   };
 
   struct Setting {
@@ -53,6 +54,7 @@ class Simulation {
 
   const Deck& deck_;
   const Jet<D>& jet_;
+  const Holding<D>& holding_;
   Setting setting_;
   std::optional<Checkpoints> checkpoints_;  ///< none if another process makes the outputs
   std::unique_ptr<Stepper<D>> stepper_;

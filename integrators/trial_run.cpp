@@ -64,7 +64,8 @@ Trial trial_run(const Parameters& p, const typename Simulation<D>::Scene& scene,
                   p.events,
                   ErrorNorm(p),
                   {&onlooker},
-                  pause});
+                  pause,
+                  scene.holding});
   watched = &march;
   trial.complete = march.to(p.final_time / scales(p).time);
   trial.samples.push_back(onlooker.sample(elapsed(), march.effort()));

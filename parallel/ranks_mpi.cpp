@@ -132,8 +132,10 @@ void Ranks::gather(std::span<double* const> columns, const std::vector<int>& bor
   world_->last = seconds_since(begin);
 }
 
+/// Letters and sums count as exchange; how much of it is waiting nobody tells.
 Ranks::Letters Ranks::exchange(const Letters& to) const {
   if (size_ == 1) return to;
+  const auto begin = Clock::now();
   const MPI_Comm comm = world_->everyone;
   std::vector<int> out(to.size()), in(to.size());
   for (std::size_t k = 0; k < to.size(); ++k) out[k] = static_cast<int>(to[k].size());
@@ -151,16 +153,19 @@ Ranks::Letters Ranks::exchange(const Letters& to) const {
     if (out[k] > 0) MPI_Isend(to[k].data(), out[k], MPI_DOUBLE, other, 0, comm, &under_way.emplace_back());
   }
   MPI_Waitall(static_cast<int>(under_way.size()), under_way.data(), MPI_STATUSES_IGNORE);
+  world_->times.exchange += seconds_since(begin);
   return from;
 }
 
 /// Not by Allreduce, which may add in another order on each rank.
 void Ranks::sum(std::span<double> numbers) const {
   if (size_ == 1) return;
+  const auto begin = Clock::now();
   const MPI_Comm comm = world_->everyone;
   const int count = static_cast<int>(numbers.size());
   MPI_Reduce(first() ? MPI_IN_PLACE : numbers.data(), numbers.data(), count, MPI_DOUBLE, MPI_SUM, 0, comm);
   MPI_Bcast(numbers.data(), count, MPI_DOUBLE, 0, comm);
+  world_->times.exchange += seconds_since(begin);
 }
 
 GatherTimes Ranks::times() const {

@@ -95,6 +95,8 @@ inline const std::vector<Broken> broken_decks = {
     {"", "units si", {"units: expected cgs|real"}},
     {"", "events exact", {"events: expected located|step"}},
     {"", "multirate yes", {"multirate: expected auto|no"}},
+    {"", "parallel shared", {"parallel: expected replicated|distributed"}},
+    {"", "parallel distributed", {"parallel distributed: expected coulomb tree or coulomb auto"}},
     {"", "seed abc", {"seed: expected an integer"}},
     {"system 3", "system 5", {"system: expected a value that is 1 (straight jet) or 3"}},
     {"print list t x n", "print list", {"print list: expected keys of observables, found nothing"}},

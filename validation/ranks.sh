@@ -131,6 +131,20 @@ ends 2 "vectors" "ranks with different vectors" "$mpiexec" "$flag" 1 "$treejet" 
   "$flag" 1 env TREEJET_VECTOR_PATH=plain "$treejet" run "$pvp" --quiet --out wrong
 [ -e wrong ] && fail "ranks that could not begin left something behind"
 
+# a jet in pieces: the rows of the replicated one, but for the accuracy of the field
+run="$treejet run deck.dat --quiet --threads 1 --force"
+sed -i -e '/^coulomb/d' -e 's/ lp / /' deck.dat
+grep -q '^multirate' deck.dat || sed -i 's/^finish/multirate no\nfinish/' deck.dat
+$run --out one || fail "the jet that is to be cut"
+sed -i 's/^finish/coulomb tree\ncoulomb accuracy 1.d-5\nparallel distributed\nfinish/' deck.dat
+on 3 $run --out pieces 2>err || fail "a jet in pieces: $(cat err)"
+for files in one pieces; do grep -v '^#' $files/statdat.dat >$files.rows; done
+paste one.rows pieces.rows | awk '
+  { for (k = 1; k <= NF / 2; ++k) { d = $k - $(k + NF / 2); if (d * d > 1e-12 * $k * $k + 1e-20) { print "row", NR, "column", k, $k, $(k + NF / 2); bad = 1 } } }
+  END { exit bad || NR == 0 }' >differences || fail "a jet in pieces: $(head -3 differences)"
+is "points in the trajectory of a jet in pieces" "$(head -1 pieces/traj.xyz)" "$(head -1 one/traj.xyz)"
+ends 2 "writes none" "walltime for a jet in pieces" on 2 "$treejet" run deck.dat --quiet --out wrong --walltime 600
+
 # one of the ranks is killed: the others end, and the launcher tells
 mkdir killed
 # shellcheck disable=SC2016  # the ranks' shell expands it

@@ -33,15 +33,24 @@ inline Parameters with_tolerance(Parameters p, double tolerance, Scheme scheme =
 
 template <int D>
 struct Run {
-  explicit Run(const Parameters& p, Threads threads = {1})
-      : parameters(p), unit(scales(p)), scene(compose<D>(p, threads)) {}
+  explicit Run(const Parameters& p, Threads threads = {1}, const Ranks& ranks = {})
+      : parameters(p), unit(scales(p)), scene(compose<D>(p, threads, ranks)) {}
 
   /// On to t seconds.
   Effort to(double seconds, std::vector<Watcher<D>*> watchers = {}) {
     const auto scheme = stepper<D>(chosen_scheme(parameters));
     const auto control = step_control(parameters);
-    March<D> march({scene.jet, scene.right_hand_side(), *scheme, *control, scene.nozzle, scene.collector,
-                    parameters.events, ErrorNorm(parameters), std::move(watchers)});
+    March<D> march({scene.jet,
+                    scene.right_hand_side(),
+                    *scheme,
+                    *control,
+                    scene.nozzle,
+                    scene.collector,
+                    parameters.events,
+                    ErrorNorm(parameters),
+                    std::move(watchers),
+                    {},
+                    scene.holding()});
     march.to(seconds / unit.time);
     return march.effort();
   }

@@ -1,9 +1,9 @@
 #include "validation/scaling_model.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include "forces/essential_tree.hpp"
+#include "validation/coulomb_trial.hpp"
 
 namespace treejet {
 
@@ -35,14 +35,15 @@ Volume volume(const LongChain& chain, int points, int ranks, const TreeShape& sh
   for (const int k : {ranks / 2, ranks - 1}) {
     tree.plant(chain.points(points, share(points, ranks, k)).view(), shape, {1}, false);
     Volume own;
-    const auto begin = std::chrono::steady_clock::now();
-    for (int other = 0; other < ranks; ++other) {
-      if (other == k) continue;
-      const auto words = tree.letter(cards[static_cast<std::size_t>(other)].data(), shape.opening).size();
-      own.letters += static_cast<double>(words * sizeof(double));
-      own.partners += words > 0;
-    }
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const double seconds = least_seconds([&] {
+      own = {};
+      for (int other = 0; other < ranks; ++other) {
+        if (other == k) continue;
+        const auto words = tree.letter(cards[static_cast<std::size_t>(other)].data(), shape.opening).size();
+        own.letters += static_cast<double>(words * sizeof(double));
+        own.partners += words > 0;
+      }
+    });
     own.seconds_a_card = seconds / std::max(1, ranks - 1);
     if (own.letters >= most.letters) most = own;
     most.cards = static_cast<double>((ranks - 1) * tree.card().size() * sizeof(double));

@@ -491,15 +491,35 @@ TEST_CASE("The reference has a row for every directive, with synonym, unit and d
 }
 
 TEST_CASE("Each way of the Coulomb sum can be named: no value hides behind a longer directive", "[deck]") {
-  for (const auto& [line, sum] : {std::pair{"coulomb direct", CoulombSum::direct},
-                                  std::pair{"coulomb tree", CoulombSum::tree},
-                                  std::pair{"coulomb auto", CoulombSum::automatic}})
+  for (const auto& [line, sum] :
+       {std::pair{"coulomb direct", CoulombSum::direct}, std::pair{"coulomb tree", CoulombSum::tree},
+        std::pair{"coulomb auto", CoulombSum::automatic}})
     CHECK(parse_deck(altered("", line), name).parameters.coulomb == sum);
 
   const Parameters both = parse_deck(altered("", "coulomb tree\ncoulomb tree space"), name).parameters;
   CHECK(both.coulomb == CoulombSum::tree);
   CHECK(both.coulomb_tree == TreeOrder::space);
   CHECK_THROWS_WITH(parse_deck(altered("", "coulomb tree spcae"), name), Catch::Contains("space"));
+}
+
+TEST_CASE("What a jet held in pieces cannot do is refused by name", "[deck]") {
+  const std::string pieces = "coulomb tree\nparallel distributed\n";
+  CHECK(parse_deck(altered("", pieces), name).parameters.parallel == ParallelData::distributed);
+  for (const auto& [lines, says] :
+       {std::pair{"checkpoint 60.", "parallel distributed: expected no checkpoint"},
+        std::pair{"coulomb expansions none", "parallel distributed: expected coulomb expansions local"},
+        std::pair{"printstat list t lp", "parallel distributed: expected no lp in the lists"},
+        std::pair{"cutoff 1.", "expected no cutoff"}})
+    CHECK_THROWS_WITH(parse_deck(altered("", pieces + lines), name), Catch::Contains(says));
+  const auto adaptive = [&](const std::string& integrator, const std::string& lines) {
+    std::string text = altered("timestep 1.d-8", "tolerance 1.d-6\n" + pieces + lines);
+    const std::string was = "integrator 2";
+    return parse_deck(text.replace(text.find(was), was.size(), "integrator " + integrator), name).parameters;
+  };
+  CHECK(adaptive("auto", "multirate no").parallel == ParallelData::distributed);
+  CHECK_THROWS_WITH(adaptive("auto", ""), Catch::Contains("parallel distributed: expected multirate no"));
+  CHECK_THROWS_WITH(adaptive("kencarp5", "multirate no"),
+                    Catch::Contains("parallel distributed: expected an explicit integrator"));
 }
 
 TEST_CASE("No two directives share a spelling, and no two observables a key", "[deck]") {
