@@ -69,7 +69,7 @@ SampledError LeafErrors::relative_to(double mean_square) const {
 }
 
 CoulombSample::CoulombSample(int points, CoulombTree& tree, Threads threads)
-    : n_(points), leaves_(sample_leaves(tree.leaves(), sampled_points / tree.shape().leaf)) {
+    : n_(points), leaves_(sample_leaves(tree.leaves(), sampled_points(points) / tree.shape().leaf)) {
   for (auto& values : direct_) values.assign(static_cast<std::size_t>(n_), 0.0);
   for (auto& values : tried_) values.assign(static_cast<std::size_t>(n_), 0.0);
   const FieldArrays<3> field = {direct_[0].data(), direct_[1].data(), direct_[2].data()};

@@ -21,7 +21,11 @@
 
 namespace treejet {
 
-constexpr int sampled_points = 1024;
+/// So many of a long chain that the few with large errors are among them: of a coil of 1e6 points 1024 missed
+/// accuracy 1e-5 by a tenth.
+constexpr int sampled_points(int points) {
+  return points < 200'000 ? 1024 : 4096;
+}
 
 /// `count` of all leaves, spread over the tree.
 std::vector<int> sample_leaves(int all, int count);

@@ -103,7 +103,7 @@ void CoulombSolver::decide(const PointCharges<3>& points, Threads threads) {
 int CoulombSolver::measuring_interval(int n) const {
   if (request_.measured_every) return *request_.measured_every;
   const double work = report_.work * n / chosen_for_;
-  return static_cast<int>(std::min(1e6, (work + double(sampled_points) * n) / (measuring_share * work)));
+  return static_cast<int>(std::min(1e6, (work + double(sampled_points(n)) * n) / (measuring_share * work)));
 }
 
 /// A shape that has become too inaccurate gets a somewhat narrower opening, which costs less than a search;

@@ -11,7 +11,7 @@ namespace treejet {
 
 /// More than of an undivided chain: there are more points, ranks share the sums, and shapes are taken that
 /// just pass.
-constexpr int sampled_points_of_pieces = 4 * sampled_points;
+constexpr int sampled_points_of_pieces = 4096;
 
 class PiecesSample {
  public:
