@@ -7,6 +7,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 # one thing, one colour, in all pictures
 COLOURS = {
@@ -55,9 +56,23 @@ def grid(count, width=3.4, height=3.1):
     return figure, panels
 
 
+def plain_ticks(axis):
+    """An axis of powers of ten that spans few of them gets round numbers, and not too many."""
+    if axis.get_scale() != "log" or axis.get_transform().base != 10:
+        return
+    low, high = axis.get_view_interval()
+    decades = np.log10(high / low)
+    if decades < 1.5:
+        axis.set_major_locator(MaxNLocator(4) if decades < 0.7 else LogLocator(subs=(1, 2, 5)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_minor_formatter(NullFormatter())
+
+
 def finish(figure, panels, target):
     entries = {}
     for panel in panels:
+        plain_ticks(panel.xaxis)
+        plain_ticks(panel.yaxis)
         panel.grid(True, which="major", color="0.9", linewidth=0.6)
         panel.spines[["top", "right"]].set_visible(False)
         for handle, label in zip(*panel.get_legend_handles_labels()):
