@@ -70,6 +70,14 @@ class Relations {
               "expected a collector distance above two elements ({:.6g} cm): a bead is released when its "
               "predecessor is that far away",
               2 * l_step));
+    const double nearest =
+        std::sqrt(3.) * l_step;  // two elements from the bead next to it, which is on the axis
+    error(p_.inserting && p_.perturb && p_.perturb_amplitude > nearest,
+          {"perturb ampl", "initial length", division},
+          fmt::format("expected at most {:.6g} cm, 1.73 elements: so far off the axis, on which the initial "
+                      "jet lies, the "
+                      "nozzle would have released beads before it begins",
+                      nearest));
   }
 
   bool divides(double resolution) {
