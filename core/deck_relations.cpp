@@ -64,20 +64,16 @@ class Relations {
              "elements ({:.6g} cm) are shorter than nozzle cross ({} cm); the model takes them for slender, "
              "and JETSPIN refuses them",
              l_step, radius));
+    const double first_distance = std::hypot(1.0, p_.perturb_amplitude / l_step);
+    note(p_.inserting && p_.perturb && first_distance >= 2, "perturb ampl",
+         fmt::format("the nozzle begins {:.3g} elements from the bead next to it, and lets one go at once",
+                     first_distance));
     error(p_.inserting && p_.collector_distance <= 2 * l_step,
           {"inserting", "collector distance", "initial length", division},
           fmt::format(
               "expected a collector distance above two elements ({:.6g} cm): a bead is released when its "
               "predecessor is that far away",
               2 * l_step));
-    const double nearest =
-        std::sqrt(3.) * l_step;  // two elements from the bead next to it, which is on the axis
-    error(p_.inserting && p_.perturb && p_.perturb_amplitude > nearest,
-          {"perturb ampl", "initial length", division},
-          fmt::format("expected at most {:.6g} cm, 1.73 elements: so far off the axis, on which the initial "
-                      "jet lies, the "
-                      "nozzle would have released beads before it begins",
-                      nearest));
   }
 
   bool divides(double resolution) {

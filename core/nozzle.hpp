@@ -4,13 +4,14 @@
 ///
 /// Insertion takes two events, both functions of d, the distance of the youngest bead (row n-1) from the
 /// nozzle:
-///   place    at d = 1.5 l_step: a bead is held on the chord nozzle -> bead n-1 at distance l_step; it exists
-///   as a
-///            charge only, faded in by s(d) = (1 - cos(pi (d - 1.5 l_step) / (0.5 l_step))) / 2;
-///   release  at d = 2 l_step, where s = 1: the held bead becomes row n with stress 0 and half the velocity
-///   of its
-///            predecessor above the nozzle velocity (the paper's dragging velocity), so that the strain rate
-///            of the element below is continuous.
+///
+///     place    at d = 1.5 l_step: a bead is held on the chord nozzle -> bead n-1 at distance l_step; it
+///              exists as a charge only, faded in by s(d) = (1 - cos(2 pi (d / l_step - 1.5))) / 2;
+///
+///     release  at d = 2 l_step, where s = 1: the held bead becomes row n with stress 0 and half the velocity
+///              of its predecessor above the nozzle velocity (the paper's dragging velocity), so that the
+///              strain rate of the element below is continuous.
+///
 /// The circle is y = A cos(K_s t), z = A sin(K_s t), evaluated, not integrated; its velocity is the
 /// derivative. All quantities scaled. Source: paper, Sec. "Perturbations at the nozzle" and "Jet insertion";
 /// the first event is JETSPIN's, the paper tells of the second only.
@@ -72,14 +73,9 @@ class Nozzle {
     return 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (d - 1.5));
   }
 
-  /// Both throw NumericalError if the event has been missed by more than half an element.
-  void place(Jet<D>& jet) const {
-    check_timely(jet);
-    jet.held = true;
-  }
+  void place(Jet<D>& jet) const { jet.held = true; }
 
   void release(Jet<D>& jet) const {
-    check_timely(jet);
     const Eigen::Index youngest = jet.size() - 1;
     const Vec<D> r = treejet::position<D>(jet.y, youngest);
     Vec<D> v = treejet::velocity<D>(jet.y, youngest) / 2;
@@ -88,7 +84,7 @@ class Nozzle {
     jet.held = false;
   }
 
- private:
+  /// NumericalError if either event has been missed by more than half an element.
   void check_timely(const Jet<D>& jet) const {
     const Eigen::Index youngest = jet.size() - 1;
     const double late = overdue(jet, treejet::position<D>(jet.y, youngest), jet.t) / l_step_;
@@ -99,6 +95,7 @@ class Nozzle {
         jet.t, youngest, late));
   }
 
+ private:
   Vec<D> on_circle(double x, double radius, double phase) const {
     Vec<D> r = Vec<D>::Zero();
     r[0] = x;

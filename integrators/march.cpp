@@ -160,6 +160,12 @@ void March<D>::start() {
   for (auto* w : parts_.watchers) w->start(parts_.jet);
   evaluate(now_);
   halt_if(not_finite<D>(now_.y, now_.slope, parts_.holding.before(parts_.jet)), now_.t);
+  // a nozzle that circles far off the axis begins beyond the place where it lets a bead go
+  if (parts_.nozzle.inserting() && overdue(true, now_.y, now_.t) > 0) {
+    while (overdue(true, parts_.jet.y, parts_.jet.t) > 0) insertion();
+    now_.y = parts_.jet.y;
+    evaluate(now_);
+  }
   under_way_ = true;
 }
 
@@ -233,6 +239,7 @@ template <int D>
 void March<D>::insertion() {
   Jet<D>& jet = parts_.jet;
   const EventKind kind = jet.held ? EventKind::release : EventKind::place;
+  if (under_way_) parts_.nozzle.check_timely(jet);
   if (jet.held) {
     parts_.nozzle.release(jet);
     parts_.motion.after_release(jet);

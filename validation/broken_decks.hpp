@@ -157,7 +157,6 @@ inline const std::vector<Broken> broken_decks = {
     {"", "perturb yes\nperturb freq 1.d4", {"perturb yes: expected perturb ampl"}, "perturb yes"},
     {"", "perturb yes\nperturb ampl 1.d-3", {"perturb yes: expected perturb freq"}, "perturb yes"},
     {"", "perturb yes\nperturb freq 1.d4\nperturb ampl 0.03", {"perturb ampl 0.03: expected at most initial length"}, "perturb ampl 0.03"},
-    {"points 1", "points 4\nperturb yes\nperturb freq 1.d4\nperturb ampl 0.01", {"perturb ampl 0.01: expected at most 0.00866025 cm"}, "perturb ampl 0.01"},
     {"system 3", "system 1\nperturb yes\nperturb freq 1.d4\nperturb ampl 1.d-3", {"perturb yes: expected no in system 1"}, "perturb yes"},
     // JETSPIN's own
     {"", "cutoff points 1000", {"cutoff points", "length in cm", "write cutoff and that length"}},

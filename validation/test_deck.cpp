@@ -396,6 +396,12 @@ TEST_CASE("What has no effect is noted, not refused", "[deck]") {
   REQUIRE(shorter.size() == 1);
   CHECK(shorter[0].find("points 5: elements (0.004 cm) are shorter than nozzle cross (0.005 cm)") !=
         std::string::npos);
+  const std::vector<std::string> wide =
+      parse_deck(altered("points 1", "points 4\nperturb yes\nperturb freq 1.d4\nperturb ampl 0.01"), name)
+          .notes;
+  REQUIRE(wide.size() == 1);
+  CHECK(wide[0].find("perturb ampl 0.01: the nozzle begins 2.24 elements from the bead next to it") !=
+        std::string::npos);
 }
 
 TEST_CASE("The paper's listings run as printed, or lead to the fix in one step", "[deck]") {

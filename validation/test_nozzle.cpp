@@ -113,3 +113,21 @@ TEST_CASE("A release keeps the strain rate of the element below and makes an uns
   CHECK(velocity<3>(jet.y, 2) == Vec<3>(2.65, 0.5, -0.25));  // half of its predecessor's above the nozzle's
   CHECK(strain_rate(jet, nozzle, 1) == Approx(before).epsilon(1e-14));
 }
+
+TEST_CASE("A nozzle that circles wider than an element begins by letting a bead go") {
+  for (const EventRule events : {EventRule::located, EventRule::step}) {
+    // the bead next to the nozzle is on the axis, sqrt(1 + 2^2) elements from it
+    Parameters p = with_steps(example("pvp", {"points 40"}), Scheme::rk4, 1e-9);
+    p.events = events;
+    Run<3> run(p);
+    const Effort effort = run.to(1e-8);
+    CHECK(effort.released == 1);
+    REQUIRE(run.jet().size() == 41);
+    const double l_step = run.scene.nozzle.l_step();
+    const Vec<3> from_nozzle = position<3>(run.jet().y, 40) - run.scene.nozzle.position(run.jet().t);
+    // meanwhile the nozzle has gone a ten-thousandth of a radian on its circle, whose radius is two elements
+    CHECK(from_nozzle.norm() == Approx(l_step).epsilon(2e-4));
+    CHECK(position<3>(run.jet().y, 39).norm() == Approx(l_step).epsilon(1e-4));
+    CHECK(run.jet().y.isFinite().all());
+  }
+}
