@@ -105,7 +105,7 @@ const Directive table[] = {
     {.words = "coulomb order", .member = &P::coulomb_order, .check = an_order,
      .meaning = "order of the expansions", .absent = "chosen by the program"},
     {.words = "coulomb opening", .member = &P::coulomb_opening, .check = an_opening,
-     .meaning = "opening of the tree, cell radii over distance", .absent = "chosen by the program"},
+     .meaning = "opening of the tree, cell radii over distance, alike for all cells", .absent = "chosen by the program"},
     {.words = "coulomb leaf", .member = &P::coulomb_leaf, .check = a_leaf,
      .meaning = "beads in a leaf", .absent = "chosen by the program"},
     {.words = "coulomb tree", .member = &P::coulomb_tree,

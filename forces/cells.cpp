@@ -5,13 +5,16 @@
 
 namespace treejet {
 
+/// A cell without extent or charge is as good as it can be.
+constexpr double widest_spread = 1000;
+
 Cells::Cells(int points, int leaf) : points_(points), leaf_(leaf) {
   std::vector<int> counts = {(points + leaf - 1) / leaf};
   while (counts.back() > 1) counts.push_back((counts.back() + 1) / 2);
   first_ = {0};
   for (auto count = counts.rbegin(); count != counts.rend(); ++count)
     first_.push_back(first_.back() + *count);
-  for (auto* values : {&centre_[0], &centre_[1], &centre_[2], &radius_, &weight_})
+  for (auto* values : {&centre_[0], &centre_[1], &centre_[2], &radius_, &critical_, &spread_, &weight_})
     values->resize(index(size()));
 }
 
@@ -29,9 +32,30 @@ void Cells::enclose(const CellPoints& points, Reach reach, Threads threads) {
         else
           weigh_children(l, k);
         measure(points, reach, l, k);
+        const std::size_t id = index(level(l).first + k);
+        const double r = radius_[id], Q = weight_[id];
+        spread_[id] = r > 0 && Q > 0 ? std::log2(4 * r * r / Q) : widest_spread;
       }
     });
   }
+  critical_ = radius_;
+}
+
+Cells::Spread Cells::spread() const {
+  Spread all;
+  for (int k = level(levels() - 1).first; k < size(); ++k)
+    if (spread_[index(k)] < widest_spread) all.sum += spread_[index(k)], ++all.leaves;
+  return all;
+}
+
+void Cells::even_out(int order, double opening, const Spread& among, Threads threads) {
+  const double mean = among.leaves > 0 ? among.sum / among.leaves : 0;
+  for_each_block(threads, {0, size()}, 512, [&](Rows cells) {
+    for (int k = cells.first; k < cells.last; ++k) {
+      const double inverse_u = std::exp2((mean - spread_[index(k)]) / (order + 2));
+      critical_[index(k)] = radius_[index(k)] * std::max(inverse_u, opening / clearance);
+    }
+  });
 }
 
 void Cells::weigh(const CellPoints& all, int leaf) {

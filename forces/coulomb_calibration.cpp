@@ -124,22 +124,24 @@ int direct_below(double accuracy, VectorPath path) {
 
 namespace {
 
-/// Chain or space: the order of points with the least work at this shape.
+/// Chain or space: the order of points with the least work at this shape, with one opening for all cells:
+/// evened out it goes by the mean leaf, which is another in each order.
 TreeShape cheapest_order(const PointCharges<3>& points, const CoulombRequest& request, TreeShape shape,
                          VectorPath path, CoulombTree& tree, Threads threads) {
-  TreeShape best;
+  TreeShape tried = shape;
+  tried.even = false;
   double least = std::numeric_limits<double>::infinity();
   for (int block : {0, 16, 4, 1}) {
     if (request.space && *request.space != (block > 0)) continue;
-    shape.block = block;
-    tree.place(points, shape, threads);
-    const double work = price(tree.count(), shape, points.n, path);
+    tried.block = block;
+    tree.place(points, tried, threads);
+    const double work = price(tree.count(), tried, points.n, path);
     if (work < least) {
       least = work;
-      best = shape;
+      shape.block = block;
     }
   }
-  return best;
+  return shape;
 }
 
 /// The search for the cheapest shape that is accurate enough.
@@ -189,13 +191,16 @@ CoulombChoice coulomb_choice(const PointCharges<3>& points, const CoulombRequest
   shape.local = request.local_expansions;
   shape.order = request.order.value_or(usual_order(request.accuracy));
   shape.opening = request.opening.value_or(0.4);
+  shape.even = shape.local && !request.opening;
   shape.leaf = request.leaf.value_or(32);
   shape = cheapest_order(points, request, shape, path, tree, threads);
 
   Search search{points, request, path, tree, threads};
   const int usual = shape.order;
   for (bool single : {true, false}) {
-    if (single && request.accuracy < finest_single) continue;
+    // points that move may come to share a leaf with some far off, on whose scale they are one in single
+    // precision; on a chain they do not
+    if (single && (request.accuracy < finest_single || (request.points_move && shape.block > 0))) continue;
     shape.single = single;
     if (request.order)
       search.try_orders(shape, {usual}, widest_opening);

@@ -3,12 +3,10 @@
 ///
 /// 1. Below the crossover of a shipped table: direct.
 /// 2. The order of the points, chain or space by blocks of 16, 4 or 1: whichever needs the least work at a
-/// typical
-///    shape, work being counted in a walk of the tree and priced by a shipped table. Where turns of a coil
-///    lie close to one another, the chain's cells overlap and its walk finds many more near pairs.
+///    usual shape, work being counted in a walk of the tree and priced by a shipped table. Where turns of a
+///    coil lie close to one another, the chain's cells overlap and its walk finds many more near pairs.
 /// 3. For a few orders p about the usual one for the accuracy: the widest opening whose measured error is
-/// small
-///    enough. The cheapest of these is taken; if it is not cheaper than the direct sum: direct.
+///    small enough. The cheapest of these is taken; if it is not cheaper than the direct sum: direct.
 ///
 /// Prices are in units of one direct pair of the same vector path, so they depend little on the machine's
 /// clock.

@@ -10,10 +10,6 @@ namespace treejet {
 
 namespace {
 
-std::size_t index(int k) {
-  return static_cast<std::size_t>(k);
-}
-
 /// Levels above the one with so many cells are walked by one thread, the subtrees below by all.
 constexpr int subtrees = 64;
 constexpr int leaves_a_task = 64;
@@ -67,12 +63,12 @@ class CoulombPieces::Walk {
   };
 
   void part(int target, bool leaf, const std::vector<int>& candidates, Lists& lists) const {
-    const double radius = tree_.cell(target).radius;
+    const double radius = tree_.cell(target).critical_radius;
     lists.open.assign(candidates.begin(), candidates.end());
     for (std::size_t k = 0; k < lists.open.size(); ++k) {
       const int source = lists.open[k];
       const EssentialTree::Cell& cell = tree_.cell(source);
-      const double size = radius + cell.radius;
+      const double size = radius + cell.critical_radius;
       if (size * size < opening2_ * tree_.distance2(target, source)) {
         lists.far.push_back(source);
       } else if (cell.children > 0) {

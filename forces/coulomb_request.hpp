@@ -6,8 +6,9 @@
 
 namespace treejet {
 
-inline CoulombRequest coulomb_request(const CoulombSetting& choice) {
+inline CoulombRequest coulomb_request(const CoulombSetting& choice, bool points_move) {
   CoulombRequest request;
+  request.points_move = points_move;
   request.method = choice.coulomb == CoulombSum::direct ? CoulombMethod::direct
                    : choice.coulomb == CoulombSum::tree ? CoulombMethod::tree
                                                         : CoulombMethod::automatic;

@@ -13,10 +13,6 @@ namespace treejet {
 
 namespace {
 
-bool differs_by(double part, int n, int before) {
-  return std::abs(n - before) > part * before;
-}
-
 /// Field and potential of all charges that are not at the place of point i.
 std::array<double, 4> without_coincident(const PointCharges<3>& points, int i) {
   std::array<double, 4> sum{};
@@ -60,7 +56,7 @@ void require_valid(const CoulombRequest& request) {
 }
 
 CoulombSolver::CoulombSolver(const CoulombRequest& request, VectorPath path, const Ranks& ranks)
-    : request_(request), path_(path), ranks_(ranks), tree_(path, ranks) {
+    : request_(request), path_(path), ranks_(ranks), tree_(path, ranks), upkeep_(request.measured_every) {
   require_valid(request);
   report_.error.asked = request.accuracy;
 }
@@ -88,40 +84,19 @@ void CoulombSolver::field(const PointCharges<3>& points, Rows rows, const FieldA
 void CoulombSolver::decide(const PointCharges<3>& points, Threads threads) {
   if (request_.method == CoulombMethod::direct || points.n < 2) return;
   const int n = points.n;
-  if (report_.error.choices == 0 || differs_by(report_.direct ? 0.1 : 0.5, n, chosen_for_))
-    return choose(points, threads);
+  if (upkeep_.choice_due(n, report_.direct)) return choose(points, threads);
   if (report_.direct) return;
-  ++since_measurement_;
-  const bool due = since_measurement_ >= measuring_interval(n) || differs_by(0.05, n, measured_for_);
-  const bool keep_order = !due && ++since_sort_ < sorted_every;
-  if (!keep_order) since_sort_ = 0;
-  tree_.arrange(points, report_.shape, threads, keep_order);
-  if (due) measure(points, threads);
+  const auto due = upkeep_.at_evaluation(n, report_.work, double(sampled_points(n)) * n);
+  tree_.arrange(points, report_.shape, threads, /*keep_order*/ !due.sort);
+  if (due.measurement && !keeps(points, threads)) choose(points, threads);
 }
 
-/// A measurement takes an evaluation of all points and direct sums of the sample.
-int CoulombSolver::measuring_interval(int n) const {
-  if (request_.measured_every) return *request_.measured_every;
-  const double work = report_.work * n / chosen_for_;
-  return static_cast<int>(std::min(1e6, (work + double(sampled_points(n)) * n) / (measuring_share * work)));
-}
-
-/// A shape that has become too inaccurate gets a somewhat narrower opening, which costs less than a search;
-/// only if that does not help it is chosen anew.
-void CoulombSolver::measure(const PointCharges<3>& points, Threads threads) {
+bool CoulombSolver::keeps(const PointCharges<3>& points, Threads threads) {
   CoulombSample sample(points.n, tree_, threads);
-  report_.record(sample.error(tree_, threads));
-  since_measurement_ = 0;
-  measured_for_ = points.n;
-  TreeShape& shape = report_.shape;
-  for (int k = 0; k < narrowings && report_.expected_error > request_.accuracy && !request_.opening; ++k) {
-    shape.opening *= narrowing;
-    tree_.reshape(shape.order, shape.opening, threads);
-    report_.record(sample.error(tree_, threads));
-    report_.error.method = description(report_);
-  }
-  if (report_.expected_error > request_.accuracy && !(request_.order && request_.opening))
-    choose(points, threads);
+  upkeep_.measured(points.n);
+  return keeps_accuracy(
+      report_, request_, [&] { return sample.error(tree_, threads); },
+      [&](double opening) { tree_.reshape(report_.shape.order, opening, threads); });
 }
 
 void CoulombReport::record(const SampledError& sampled) {
@@ -144,8 +119,8 @@ void CoulombSolver::choose(const PointCharges<3>& points, Threads threads) {
   if (!choice.direct) report_.record(choice.error);
   report_.error.method = description(report_);
   ++report_.error.choices;
-  chosen_for_ = measured_for_ = points.n;
-  since_measurement_ = since_sort_ = 0;
+  upkeep_.chosen(points.n);
+  if (!choice.direct && request_.points_move) keeps(points, threads);
 }
 
 std::string description(const CoulombReport& report) {

@@ -10,7 +10,9 @@
 ///
 /// How the promise is kept: errors are measured, not bounded, because neighbours on a chain cancel and
 /// amplify every error 10 to 100 times. A shape is taken only if the errors of sampled leaves against direct
-/// summation, with an allowance for the spread between leaves, stay below the accuracy. The measurement is
+/// summation, with an allowance for the spread between leaves, stay below the accuracy. A sample speaks for
+/// all because cells are made to err alike (cells.hpp): with one opening for all, a few where points crowd
+/// hold most of the error. The measurement is
 /// repeated when the number of points has changed by a twentieth, and so often that it takes 3 % of the work;
 /// if it fails, the opening is narrowed, or if that does not help the shape is chosen anew, as it is when the
 /// number of points has changed by half. If no shape is accurate enough, or none is expected to be faster,
@@ -27,18 +29,15 @@
 #include "core/force_error.hpp"
 #include "forces/coulomb.hpp"
 #include "forces/coulomb_tree.hpp"
+#include "forces/tree_upkeep.hpp"
 
 namespace treejet {
 
 enum class CoulombMethod { automatic, direct, tree };
 
-/// Part of the work that measuring the error may take.
-constexpr double measuring_share = 0.03;
 /// What a shape's opening may be narrowed by at a measurement, and how often, before another is looked for.
 constexpr double narrowing = 0.93;
 constexpr int narrowings = 4;
-/// Evaluations between two sorts of the points in space, while their number stays the same.
-constexpr int sorted_every = 16;
 
 struct CoulombRequest {
   CoulombMethod method = CoulombMethod::automatic;
@@ -48,6 +47,7 @@ struct CoulombRequest {
   std::optional<int> leaf = {};            ///< a multiple of 16
   std::optional<bool> space = {};          ///< order in space, or that of the chain
   bool local_expansions = true;            ///< false: Barnes-Hut, with the same search for opening and order
+  bool points_move = false;                ///< the accuracy is to hold between measurements
   std::optional<int> measured_every = {};  ///< evaluations; without it, as takes 3 % of the work
 };
 
@@ -84,6 +84,31 @@ struct CoulombReport {
 /// accurate shape)", "direct sum (asked for)".
 std::string description(const CoulombReport& report);
 
+/// Whether the shape last reported is accurate enough still, or becomes so by a somewhat narrower opening,
+/// which costs less than a search. `measure` measures the present shape, `reopen` changes its opening.
+///
+/// Of points that move, cells that were near become far until the next measurement, all at once where they
+/// are alike: an opening must be accurate enough one step wider, too.
+template <class Measure, class Reopen>
+bool keeps_accuracy(CoulombReport& report, const CoulombRequest& request, Measure measure, Reopen reopen) {
+  double wider = 0;
+  if (request.points_move && !request.opening) {
+    reopen(report.shape.opening / narrowing);
+    wider = measure().bound;
+    reopen(report.shape.opening);
+  }
+  report.record(measure());
+  for (int k = 0; k < narrowings && !request.opening; ++k) {
+    if (std::max(wider, report.expected_error) <= request.accuracy) break;
+    wider = report.expected_error;
+    report.shape.opening *= narrowing;
+    reopen(report.shape.opening);
+    report.record(measure());
+    report.error.method = description(report);
+  }
+  return report.expected_error <= request.accuracy || (request.order && request.opening);
+}
+
 class CoulombSolver {
  public:
   /// InputError for a request that is not valid.
@@ -97,23 +122,19 @@ class CoulombSolver {
   const CoulombReport& report() const { return report_; }
 
   /// What the next decisions are made from.
-  void visit(Archive& state) {
-    state(tree_, report_, chosen_for_, measured_for_, since_measurement_, since_sort_);
-  }
+  void visit(Archive& state) { state(tree_, report_, upkeep_); }
 
  private:
   void decide(const PointCharges<3>& points, Threads threads);
   void choose(const PointCharges<3>& points, Threads threads);
-  void measure(const PointCharges<3>& points, Threads threads);
-  int measuring_interval(int n) const;
+  bool keeps(const PointCharges<3>& points, Threads threads);
 
   CoulombRequest request_;
   VectorPath path_;
   Ranks ranks_;
   CoulombTree tree_;
   CoulombReport report_;
-  int chosen_for_ = 0, measured_for_ = 0;  ///< points
-  int since_measurement_ = 0, since_sort_ = 0;
+  TreeUpkeep upkeep_;
 };
 
 }  // namespace treejet

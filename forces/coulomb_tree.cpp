@@ -14,10 +14,6 @@ namespace treejet {
 
 namespace {
 
-std::size_t index(int k) {
-  return static_cast<std::size_t>(k);
-}
-
 /// Leaves, with all their work, that a thread takes at once.
 constexpr int leaves_a_task = 64;
 
@@ -34,6 +30,7 @@ void CoulombTree::place(const PointCharges<3>& points, const TreeShape& shape, T
   shape_ = shape;
   points_.read(points, threads);
   cells_.enclose(points_.points({0, points.n}), kernels_->reach, threads);
+  even_out(threads);
 }
 
 void CoulombTree::visit(Archive& state) {
@@ -43,10 +40,15 @@ void CoulombTree::visit(Archive& state) {
 }
 
 void CoulombTree::reshape(int order, double opening, Threads threads) {
-  shape_.opening = opening;
-  if (order == shape_.order) return;
+  const bool same_order = order == shape_.order;
   shape_.order = order;
-  expand(threads);
+  shape_.opening = opening;
+  even_out(threads);
+  if (!same_order) expand(threads);
+}
+
+void CoulombTree::even_out(Threads threads) {
+  if (shape_.even) cells_.even_out(shape_.order, shape_.opening, cells_.spread(), threads);
 }
 
 void CoulombTree::expand(Threads threads) {

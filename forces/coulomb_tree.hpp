@@ -24,11 +24,12 @@ namespace treejet {
 
 struct TreeShape {
   int order = 6;         ///< p of multipole.hpp, 2 to 14
-  double opening = 0.4;  ///< far if r_A + r_B < opening * distance
+  double opening = 0.4;  ///< cells.hpp
   int leaf = 32;         ///< points of a leaf, a multiple of 16
   int block = 0;         ///< 0: the order of the chain; else space_order by blocks of that many points
   bool single = false;   ///< near field in single precision
   bool local = true;     ///< local expansions; false: Barnes-Hut
+  bool even = true;      ///< all cells err alike (cells.hpp); false, and Barnes-Hut: the opening as it is
 };
 
 class CoulombTree {
@@ -72,6 +73,7 @@ class CoulombTree {
   void visit(Archive& state);
 
  private:
+  void even_out(Threads threads);
   std::span<const int> own_share(const std::vector<int>& leaves) const;
   void gather(const std::vector<int>& leaves, std::size_t sums);
   Interactions local_expansions(std::span<const int> leaves, Threads threads);

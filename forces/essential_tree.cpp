@@ -13,16 +13,12 @@ namespace {
 
 /// Balls of all outlines together, and of one.
 constexpr int all_balls = 8192, least_balls = 8, most_balls = 256;
-/// Words of a ball on a card: centre, radius, largest radius of a leaf.
+/// Words of a ball on a card: centre, radius, largest critical radius of a leaf.
 constexpr int ball_words = 5;
-/// Words of a cell in a letter before its moments: centre, radius, children, points.
-constexpr int header = 6;
+/// Words of a cell in a letter before its moments: centre, radii, children, points.
+constexpr int header = 7;
 /// Both sides of a condition are rounded.
 constexpr double rounding = 1 - 1e-12;
-
-std::size_t index(int k) {
-  return static_cast<std::size_t>(k);
-}
 
 }  // namespace
 
@@ -51,7 +47,7 @@ void EssentialTree::plant(const PointCharges<3>& piece, const TreeShape& shape, 
   for (int l = 0; l < own_.levels(); ++l) {
     const CellRange level = own_.level(l);
     for (int k = 0; k < level.last - level.first; ++k) {
-      Cell cell = {own_.radius()[level.first + k], 0, 0, {}};
+      Cell cell = {own_.radius()[level.first + k], 0, 0, 0, {}};
       if (l == own_.levels() - 1)
         cell.points = own_.leaf_points(k);
       else
@@ -68,7 +64,14 @@ void EssentialTree::plant(const PointCharges<3>& piece, const TreeShape& shape, 
   view_expansions();
   roots_.clear();
   if (piece.n > 0) roots_.push_back(0);
+  even_ = shape.even;
+  even_out(shape.opening, own_.spread(), threads);
   move_up(*kernels_, own_, expansions_, points(), threads);
+}
+
+void EssentialTree::even_out(double opening, const Cells::Spread& among, Threads threads) {
+  if (even_) own_.even_out(expansions_.order, opening, among, threads);
+  for (int k = 0; k < own_.size(); ++k) cells_[index(k)].critical_radius = own_.critical_radius()[k];
 }
 
 void EssentialTree::graft(double opening) {
@@ -77,15 +80,19 @@ void EssentialTree::graft(double opening) {
   moments_.resize(cells_.size() * stride());
   for (auto* values : {&r_[0], &r_[1], &r_[2], &q_}) values->resize(index(own_.points()));
   roots_.resize(own_.points() > 0 ? 1 : 0);
+  const Cells::Spread own = own_.spread();
+  double all[] = {own.sum, own.leaves};
+  ranks_.sum(all);
+  even_out(opening, {all[0], all[1]}, {1});
   if (ranks_.size() > 1) {
-    const std::vector<double> all = cards();
+    const std::vector<double> cards = ranks_.of_all(card());
     Ranks::Letters letters(index(ranks_.size()));
     for (int k = 0; k < ranks_.size(); ++k)
-      if (k != ranks_.rank()) letters[index(k)] = letter(all.data() + index(k) * card_words(), opening);
+      if (k != ranks_.rank()) letters[index(k)] = letter(cards.data() + index(k) * card_words(), opening);
     const Ranks::Letters received = ranks_.exchange(letters);
     make_room(received);
     for (int k = 0; k < ranks_.size(); ++k) {
-      const double* card = all.data() + index(k) * card_words();
+      const double* card = cards.data() + index(k) * card_words();
       if (k == ranks_.rank() || card[0] == 0) continue;
       roots_.push_back(place());
       read(roots_.back(), received[index(k)].empty() ? card + root_on_card() : received[index(k)].data());
@@ -149,19 +156,6 @@ EssentialTree::Letter EssentialTree::letter(const double* card, double opening) 
   return letter;
 }
 
-/// Of all ranks.
-std::vector<double> EssentialTree::cards() const {
-  std::vector<double> all(index(ranks_.size()) * card_words());
-  const Letter own = card();
-  std::copy(own.begin(), own.end(),
-            all.begin() + static_cast<std::ptrdiff_t>(index(ranks_.rank()) * own.size()));
-  std::vector<int> borders;
-  for (int k = 0; k <= ranks_.size(); ++k) borders.push_back(k * static_cast<int>(own.size()));
-  double* const column[] = {all.data()};
-  ranks_.gather(column, borders);
-  return all;
-}
-
 /// The lowest level with few enough cells.
 void EssentialTree::write_outline(double* at) const {
   const int bottom = own_.levels() - 1;
@@ -173,7 +167,7 @@ void EssentialTree::write_outline(double* at) const {
     const int below = bottom - level, first = leaves.first + ((k - cells.first) << below);
     double leaf_radius = 0;
     for (int leaf = first; leaf < std::min(leaves.last, first + (1 << below)); ++leaf)
-      leaf_radius = std::max(leaf_radius, cell(leaf).radius);
+      leaf_radius = std::max(leaf_radius, cell(leaf).critical_radius);
     for (const auto& centre : centre_) *at++ = centre[index(k)];
     *at++ = cell(k).radius;
     *at++ = leaf_radius;
@@ -189,7 +183,7 @@ void EssentialTree::Outline::add(const double* ball, double opening) {
 /// Whether no leaf in the balls can ask for what the cell is made of.
 bool EssentialTree::closed(int k, const Outline& outline) const {
   const double x = centre_[0][index(k)], y = centre_[1][index(k)], z = centre_[2][index(k)];
-  const double radius = cell(k).radius;
+  const double radius = cell(k).critical_radius;
   constexpr std::size_t together = 16;  // in wide registers, without a branch
   for (std::size_t first = 0; first < outline.reach.size(); first += together) {
     int near = 0;
@@ -214,7 +208,7 @@ void EssentialTree::write(int k, const Outline& outline, Letter& letter) const {
 void EssentialTree::write_cell(int k, int children, int points, Letter& letter) const {
   const double* moments = moments_.data() + index(k) * stride();
   for (const auto& centre : centre_) letter.push_back(centre[index(k)]);
-  letter.insert(letter.end(), {cell(k).radius, double(children), double(points)});
+  letter.insert(letter.end(), {cell(k).radius, cell(k).critical_radius, double(children), double(points)});
   letter.insert(letter.end(), moments, moments + stride());
   for (const auto* values : {&r_[0], &r_[1], &r_[2], &q_}) {
     const auto first = values->begin() + cell(k).points.first;
@@ -244,9 +238,9 @@ int EssentialTree::place() {
 /// What `write` has written, into the place of the cell and places of its children; returns the end of it.
 const double* EssentialTree::read(int k, const double* at) {
   for (std::size_t e = 0; e < 3; ++e) centre_[e][index(k)] = at[e];
-  const int children = static_cast<int>(at[4]), points = static_cast<int>(at[5]),
+  const int children = static_cast<int>(at[5]), points = static_cast<int>(at[6]),
             first = static_cast<int>(q_.size());
-  cells_[index(k)] = {at[3], static_cast<int>(cells_.size()), children, {first, first + points}};
+  cells_[index(k)] = {at[3], at[4], static_cast<int>(cells_.size()), children, {first, first + points}};
   at += header;
   std::copy_n(at, stride(), moments_.data() + index(k) * stride());
   at += stride();

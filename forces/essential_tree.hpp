@@ -10,9 +10,10 @@
 /// moments, opened down to the points where they are near. A piece is a stretch of the chain, so most others
 /// are seen as one cell, its neighbours along the chain or between the turns of a coil in more detail.
 ///
-/// Cells A and B are far if r_A + r_B < opening * |c_A - c_B|. A rank knows of another's leaf B no more than
-/// that it lies in a ball (c, R) of its outline and that r_B <= rho, so it closes cell A for that ball if
-///     r_A + rho < opening * (|c_A - c| - R) ;
+/// Cells A and B are far if R_A + R_B < opening * |c_A - c_B| with critical radii (cells.hpp), which go by
+/// the leaves of all pieces. A rank knows of another's leaf B no more than that it lies in a ball (c, r) of
+/// its outline and that R_B <= rho, so it closes cell A for that ball if
+///     R_A + rho < opening * (|c_A - c| - r) ;
 /// then no leaf there asks for the children. Source: Warren and Salmon, Supercomputing '93. The fewer the
 /// ranks, the longer their pieces and the more balls an outline has: cards stay small beside letters.
 ///
@@ -30,7 +31,7 @@ class EssentialTree {
  public:
   /// Cells by number: the own ones as in Cells, then the grafted ones.
   struct Cell {
-    double radius = 0;
+    double radius = 0, critical_radius = 0;
     int child = 0, children = 0;  ///< the first one, and how many; none: a leaf, or closed
     Rows points;                  ///< of a leaf
   };
@@ -83,9 +84,9 @@ class EssentialTree {
 
   std::size_t stride() const { return static_cast<std::size_t>(expansions_.moment_stride); }
   void view_expansions();
+  void even_out(double opening, const Cells::Spread& among, Threads threads);
   std::size_t root_on_card() const;
   std::size_t card_words() const;
-  std::vector<double> cards() const;
   void write_outline(double* at) const;
   bool closed(int cell, const Outline& outline) const;
   void write(int cell, const Outline& outline, Letter& letter) const;
@@ -101,6 +102,7 @@ class EssentialTree {
   Cells own_;
   std::vector<int> order_, roots_;
   int block_ = 0;  ///< of the order
+  bool even_ = true;
   std::vector<Cell> cells_;
   std::vector<double> centre_[3], moments_, locals_, r_[3], q_;
   Expansions expansions_{};

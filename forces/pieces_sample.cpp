@@ -5,14 +5,6 @@
 
 namespace treejet {
 
-namespace {
-
-std::size_t index(int k) {
-  return static_cast<std::size_t>(k);
-}
-
-}  // namespace
-
 PiecesSample::PiecesSample(CoulombPieces& pieces, const Ranks& ranks, VectorPath path, Threads threads)
     : ranks_(ranks) {
   // The size of the whole field, from the tree itself: it need not be exact.
@@ -31,12 +23,9 @@ PiecesSample::PiecesSample(CoulombPieces& pieces, const Ranks& ranks, VectorPath
 }
 
 PiecesSample::Spread PiecesSample::spread(const CoulombPieces& pieces) const {
-  std::vector<double> leaves(index(ranks_.size()));
-  leaves[index(ranks_.rank())] = pieces.leaves();
-  double* const column[] = {leaves.data()};
-  ranks_.gather(column, ranks_.borders({0, ranks_.size()}, 1));
+  const double own[] = {double(pieces.leaves())};
   std::vector<int> first = {0};
-  for (double count : leaves) first.push_back(first.back() + static_cast<int>(count));
+  for (double count : ranks_.of_all(own)) first.push_back(first.back() + static_cast<int>(count));
 
   Spread all;
   all.leaves =

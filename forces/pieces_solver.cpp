@@ -12,10 +12,6 @@ namespace treejet {
 
 namespace {
 
-bool differs_by(double part, double n, double before) {
-  return std::abs(n - before) > part * before;
-}
-
 /// All pairs are near whatever the order; the moments, which nobody asks for, are short.
 TreeShape all_pairs() {
   return {.order = 2, .opening = 0, .leaf = 32, .block = 0, .single = false, .local = true};
@@ -24,7 +20,7 @@ TreeShape all_pairs() {
 }  // namespace
 
 PiecesSolver::PiecesSolver(const CoulombRequest& request, const Ranks& ranks, VectorPath path)
-    : request_(request), ranks_(ranks), path_(path), pieces_(ranks, path) {
+    : request_(request), ranks_(ranks), path_(path), pieces_(ranks, path), upkeep_(request.measured_every) {
   require_valid(request);
   report_.error.asked = request.accuracy;
 }
@@ -42,51 +38,32 @@ void PiecesSolver::field(const PointCharges<3>& piece, const FieldArrays<3>& fie
 void PiecesSolver::arrange(const PointCharges<3>& piece, Threads threads) {
   double sums[] = {double(piece.n), cut_anew(piece.n) ? 1.0 : 0.0};
   ranks_.sum(sums);
-  const double n = sums[0];
+  const int n = static_cast<int>(sums[0]);
   const bool other_pieces = sums[1] > 0;
-  if (report_.error.choices == 0 || differs_by(report_.direct ? 0.1 : 0.5, n, chosen_for_))
-    return choose(piece, n, threads);
+  if (upkeep_.choice_due(n, report_.direct)) return choose(piece, n, threads);
   if (report_.direct) return pieces_.arrange(piece, report_.shape, threads);
-  ++since_measurement_;
-  const bool due =
-      other_pieces || since_measurement_ >= measuring_interval(n) || differs_by(0.05, n, measured_for_);
-  const bool keep_order = !due && ++since_sort_ < sorted_every;
-  if (!keep_order) since_sort_ = 0;
-  pieces_.arrange(piece, report_.shape, threads, keep_order);
-  if (due) measure(piece, n, threads);
+  const double sample_pairs = double(sampled_points_of_pieces) * n / ranks_.size();
+  const auto due = upkeep_.at_evaluation(n, report_.work, sample_pairs, other_pieces);
+  pieces_.arrange(piece, report_.shape, threads, /*keep_order*/ !due.sort);
+  if (due.measurement && !keeps(piece, n, threads)) choose(piece, n, threads);
 }
 
 /// Whether this piece has become another one, whose leaves stand elsewhere.
 bool PiecesSolver::cut_anew(int n) const {
   constexpr int few = 4;
-  return std::abs(n - measured_piece_) > few && differs_by(0.1, n, measured_piece_);
+  return std::abs(n - measured_piece_) > few && TreeUpkeep::differs_by(0.1, n, measured_piece_);
 }
 
-/// A measurement takes an evaluation of all points and direct sums of the sample.
-double PiecesSolver::measuring_interval(double n) const {
-  if (request_.measured_every) return *request_.measured_every;
-  const double work = report_.work * n / chosen_for_;
-  return std::min(1e6, (work + sampled_points_of_pieces * n / ranks_.size()) / (measuring_share * work));
-}
-
-void PiecesSolver::measure(const PointCharges<3>& piece, double n, Threads threads) {
+bool PiecesSolver::keeps(const PointCharges<3>& piece, int n, Threads threads) {
   const PiecesSample sample(pieces_, ranks_, path_, threads);
-  report_.record(sample.error(pieces_, threads));
-  since_measurement_ = 0;
-  measured_for_ = n;
+  upkeep_.measured(n);
   measured_piece_ = piece.n;
-  TreeShape& shape = report_.shape;
-  for (int k = 0; k < narrowings && report_.expected_error > request_.accuracy && !request_.opening; ++k) {
-    shape.opening *= narrowing;
-    pieces_.reopen(shape.opening);
-    report_.record(sample.error(pieces_, threads));
-    report_.error.method = description(report_);
-  }
-  if (report_.expected_error > request_.accuracy && !(request_.order && request_.opening))
-    choose(piece, n, threads);
+  return keeps_accuracy(
+      report_, request_, [&] { return sample.error(pieces_, threads); },
+      [&](double opening) { pieces_.reopen(opening); });
 }
 
-void PiecesSolver::choose(const PointCharges<3>& piece, double n, Threads threads) {
+void PiecesSolver::choose(const PointCharges<3>& piece, int n, Threads threads) {
   report_.work = std::numeric_limits<double>::infinity();
   report_.direct = true;
   report_.reason = "asked for";
@@ -97,6 +74,7 @@ void PiecesSolver::choose(const PointCharges<3>& piece, double n, Threads thread
     TreeShape shape;
     shape.order = request_.order.value_or(usual_order(request_.accuracy));
     shape.opening = request_.opening.value_or(0.4);
+    shape.even = !request_.opening;
     shape.leaf = request_.leaf.value_or(32);
     choose_order_of_points(piece, n, shape, threads);
     search(piece, shape, threads);
@@ -104,29 +82,29 @@ void PiecesSolver::choose(const PointCharges<3>& piece, double n, Threads thread
   if (report_.direct) report_.shape = all_pairs();
   report_.error.method = description(report_);
   ++report_.error.choices;
-  chosen_for_ = measured_for_ = n;
+  upkeep_.chosen(n);
   measured_piece_ = piece.n;
-  since_measurement_ = since_sort_ = 0;
   pieces_ = CoulombPieces(ranks_, path_);  // what was seen at other shapes may have taken more room
   pieces_.arrange(piece, report_.shape, threads);
+  if (!report_.direct && request_.points_move) keeps(piece, n, threads);
 }
 
 /// Chain or space: whichever needs the least work at this shape. Long pieces are looked at each by itself: in
 /// an order that suits the chain ill, they would show each other nearly all they hold.
-void PiecesSolver::choose_order_of_points(const PointCharges<3>& piece, double n, TreeShape& shape,
+void PiecesSolver::choose_order_of_points(const PointCharges<3>& piece, int n, TreeShape& shape,
                                           Threads threads) {
   constexpr double long_piece = 4096;
   double least = std::numeric_limits<double>::infinity();
-  int best = 0;
+  TreeShape tried = shape;
+  tried.even = false;  // as in coulomb_calibration.cpp
   for (int block : {0, 16, 4, 1}) {
     if (request_.space && *request_.space != (block > 0)) continue;
-    shape.block = block;
-    pieces_.arrange_alone(piece, shape, threads);
+    tried.block = block;
+    pieces_.arrange_alone(piece, tried, threads);
     if (n < long_piece * ranks_.size()) pieces_.reopen(shape.opening);
     const double work = this->work();
-    if (work < least) least = work, best = block;
+    if (work < least) least = work, shape.block = block;
   }
-  shape.block = best;
 }
 
 /// The cheapest of a few orders, each with the widest opening that is accurate enough.

@@ -38,13 +38,12 @@ class PiecesSolver {
 
  private:
   void arrange(const PointCharges<3>& piece, Threads threads);
-  void choose(const PointCharges<3>& piece, double n, Threads threads);
-  void choose_order_of_points(const PointCharges<3>& piece, double n, TreeShape& shape, Threads threads);
+  void choose(const PointCharges<3>& piece, int n, Threads threads);
+  void choose_order_of_points(const PointCharges<3>& piece, int n, TreeShape& shape, Threads threads);
   void search(const PointCharges<3>& piece, TreeShape shape, Threads threads);
   std::optional<SampledError> find_opening(const PiecesSample& sample, Threads threads);
-  void measure(const PointCharges<3>& piece, double n, Threads threads);
+  bool keeps(const PointCharges<3>& piece, int n, Threads threads);
   double work();
-  double measuring_interval(double n) const;
   bool cut_anew(int n) const;
 
   CoulombRequest request_;
@@ -52,9 +51,8 @@ class PiecesSolver {
   VectorPath path_;
   CoulombPieces pieces_;
   CoulombReport report_;
-  double chosen_for_ = 0, measured_for_ = 0;  ///< points of all pieces
-  int measured_piece_ = 0;                    ///< points of this one
-  int since_measurement_ = 0, since_sort_ = 0;
+  TreeUpkeep upkeep_;
+  int measured_piece_ = 0;  ///< points of this piece at the last measurement
 };
 
 }  // namespace treejet

@@ -113,7 +113,7 @@ class Composer {
  private:
   std::unique_ptr<CoulombForce<D>> coulomb() {
     if (p_.coulomb == CoulombSum::direct) return std::make_unique<CoulombForce<D>>(g_.Q, reach(p_), ranks_);
-    return std::make_unique<CoulombForce<D>>(g_.Q, coulomb_request(p_), ranks_);
+    return std::make_unique<CoulombForce<D>>(g_.Q, coulomb_request(p_, /*points_move*/ true), ranks_);
   }
 
   template <class Make>
@@ -143,7 +143,7 @@ std::vector<int> whole_jet(const Parameters& p) {
 void hold_in_pieces(Scene<3>& scene, const Parameters& p, Threads threads, const Ranks& ranks) {
   auto pieces = std::make_unique<ChainPieces>(initial_elements(p), ranks);
   auto motion = std::make_unique<PiecesMotion>(*scene.motion, *pieces, threads);
-  if (groups(p).Q != 0) motion->add_coulomb(groups(p).Q, coulomb_request(p));
+  if (groups(p).Q != 0) motion->add_coulomb(groups(p).Q, coulomb_request(p, /*points_move*/ true));
   scene.jet = initial_jet<3>(p, pieces->rows());
   scene.pieces_error = motion->error();
   scene.pieces_motion = std::move(motion);

@@ -3,7 +3,7 @@
 ///
 /// The tree is walked from the root down on the side of the targets; a target cell inherits from its parent
 /// the cells that were too near for the parent, opened by one level, so both sides always stand on one level.
-/// A and B are far if r_A + r_B < opening * |c_A - c_B|. Each target has its own lists, in ascending order:
+/// Which are far from each other, cells.hpp says. Each target has its own lists, in ascending order:
 /// whoever works on a target needs nothing from other targets, and the sums have one order on any number of
 /// threads.
 
@@ -18,7 +18,7 @@ namespace treejet {
 class Traversal {
  public:
   Traversal(const Cells& cells, double opening)
-      : cells_(cells), opening2_(opening * opening), lists_(static_cast<std::size_t>(cells.levels())) {}
+      : cells_(cells), opening2_(opening * opening), lists_(index(cells.levels())) {}
 
   /// Walks the targets below `cell` of `level`, itself included, whose inherited cells are `candidate` (cells
   /// of the same level by their place in it). Calls far(id of target, ids of sources) for each, near(leaf,
@@ -77,12 +77,13 @@ class Traversal {
 
   void part(int level, int cell, std::span<const int> candidate, Lists& lists) const {
     const int first = cells_.level(level).first, own = first + cell;
-    const double *cx = cells_.centre(0), *cy = cells_.centre(1), *cz = cells_.centre(2), *r = cells_.radius();
-    const double x = cx[own], y = cy[own], z = cz[own], radius = r[own];
+    const double *cx = cells_.centre(0), *cy = cells_.centre(1), *cz = cells_.centre(2);
+    const double* R = cells_.critical_radius();
+    const double x = cx[own], y = cy[own], z = cz[own], radius = R[own];
     lists.start(candidate.size());
     for (int k : candidate) {
       const int id = first + k;
-      const double dx = cx[id] - x, dy = cy[id] - y, dz = cz[id] - z, size = r[id] + radius;
+      const double dx = cx[id] - x, dy = cy[id] - y, dz = cz[id] - z, size = R[id] + radius;
       lists.add(id, k, size * size < opening2_ * (dx * dx + dy * dy + dz * dz));
     }
   }

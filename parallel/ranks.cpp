@@ -16,6 +16,17 @@ std::vector<int> Ranks::borders(Rows rows, int block) const {
   return borders;
 }
 
+std::vector<double> Ranks::of_all(std::span<const double> own) const {
+  const auto count = static_cast<int>(own.size());
+  std::vector<double> all(own.size() * index(size_));
+  std::copy(own.begin(), own.end(), all.begin() + std::ptrdiff_t{rank_} * count);
+  std::vector<int> borders;
+  for (int k = 0; k <= size_; ++k) borders.push_back(k * count);
+  double* const column[] = {all.data()};
+  gather(column, borders);
+  return all;
+}
+
 void Ranks::require_same(const std::string& program, const std::string& deck) const {
   if (!agree(program))
     throw LaunchError(

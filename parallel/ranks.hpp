@@ -8,8 +8,8 @@
 /// (forces/coulomb_pieces.hpp), ranks write each other letters and take their decisions from common sums.
 ///
 /// A Ranks is a value. Copies stand for the same rank; a default one is alone and sends nothing. What sends
-/// (join_ranks, gather, exchange, sum, times, agree, require_same, greatest, threads_each, crowding) is
-/// called by all ranks in the same order, by their main threads. The only mpi.h is in ranks_mpi.cpp;
+/// (join_ranks, gather, of_all, exchange, sum, times, agree, require_same, greatest, threads_each, crowding)
+/// is called by all ranks in the same order, by their main threads. The only mpi.h is in ranks_mpi.cpp;
 /// ranks_alone.cpp stands in for it where there is no MPI.
 
 #include <cstdint>
@@ -51,6 +51,9 @@ class Ranks {
 
   /// Each rank has set the rows of its own share of every column; now all have all.
   void gather(std::span<double* const> columns, const std::vector<int>& borders) const;
+
+  /// The numbers of all ranks, of each as many, in the order of the ranks.
+  std::vector<double> of_all(std::span<const double> own) const;
 
   /// One letter to each rank, by its number; returned are those that came, by the number of the sender. An
   /// empty letter is not sent.

@@ -1,6 +1,6 @@
 #pragma once
-/// Sets of charges on which the Coulomb sums are tried: curves of n points equally spaced in arc length, and
-/// a cloud.
+/// Sets of charges on which the Coulomb sums are tried: curves of n points, most of them equally spaced in
+/// arc length, and a cloud.
 
 #include <cmath>
 #include <functional>
@@ -70,6 +70,17 @@ inline PointSet whipping_jet(int n) {
     const double radius = 5 * std::pow(s, 1.5), phi = 80 * std::numbers::pi * s;
     return std::array<double, 3>{16 * s, radius * std::cos(phi), radius * std::sin(phi)};
   });
+}
+
+/// The same with beads that crowd ten times on the way and are strewn between, by spacings of 1 to 100.
+inline PointSet uneven_jet(int n) {
+  PointSet set;
+  for (int i = 0; i < n; ++i) {
+    const double u = (i + 0.5) / n, lumps = 20 * std::numbers::pi, s = u + 0.98 / lumps * std::sin(lumps * u);
+    const double radius = 5 * std::pow(s, 1.5), phi = 80 * std::numbers::pi * s;
+    set.add({16 * s, radius * std::cos(phi), radius * std::sin(phi)}, 1.0 / n);
+  }
+  return set;
 }
 
 /// A uniform cloud in the unit cube, charges of both signs.

@@ -70,6 +70,40 @@ TEST_CASE("Every pair of points is near or far exactly once") {
   }
 }
 
+TEST_CASE("The critical radius of a cell is larger where points crowd") {
+  // two leaves of 16 like charges on a line, eight times as far apart in one as in the other
+  PointSet set;
+  for (int i = 0; i < 16; ++i) set.add({0.5 * i, 0, 0}, 1);
+  for (int i = 0; i < 16; ++i) set.add({100 + 4.0 * i, 0, 0}, 1);
+  Cells cells(32, 16);
+  cells.enclose({{set.r[0].data(), set.r[1].data(), set.r[2].data()}, set.q.data(), 0, 32},
+                wide_kernels(default_path()).reach, {1});
+  const double *r = cells.radius(), *R = cells.critical_radius();
+  CHECK(r[2] == Approx(8 * r[1]).epsilon(1e-14));
+  CHECK(R[1] == r[1]);
+  cells.even_out(4, 0.4, cells.spread(), {1});
+  // Q / r^2 is 64 times as large: of order 4, to err alike the ratio must be narrower by 64^(1/6) = 2
+  CHECK(R[2] / R[1] == Approx(4).epsilon(1e-14));
+  CHECK(R[1] * R[2] == Approx(r[1] * r[2]).epsilon(1e-14));
+}
+
+TEST_CASE(
+    "Where points crowd and are strewn, the tree errs no more and does half the work if cells err alike") {
+  const PointSet set = uneven_jet(8000);
+  const FieldSet exact = direct_field(set);
+  double errors[2];
+  std::int64_t pairs[2];
+  for (bool even : {false, true}) {
+    const TreeShape shape = {.order = 6, .opening = even ? 0.6 : 0.4, .leaf = 32, .even = even};
+    errors[even] = relative_l2_error(tree_field(set, shape), exact);
+    CoulombTree tree;
+    tree.arrange(set.view(), shape, {1});
+    pairs[even] = tree.count().pairs;
+  }
+  CHECK(errors[true] < errors[false]);
+  CHECK(pairs[true] < pairs[false] / 2);
+}
+
 TEST_CASE("The order in space is a permutation that keeps blocks of the chain together") {
   const PointSet set = random_cloud(1001);
   for (int block : {1, 4, 16}) {
@@ -112,6 +146,7 @@ TEST_CASE("The promised error is never exceeded") {
     cases.push_back({"coil, pitch like the spacing", coil(n, 30, 0.05)});
     cases.push_back({"coil, pitch below the spacing", coil(n, 60, 0.01)});
     cases.push_back({"whipping jet", whipping_jet(n)});
+    cases.push_back({"unevenly spaced jet", uneven_jet(n)});
     cases.push_back({"cloud of both signs", random_cloud(n)});
   }
   for (const Case& c : cases) {
