@@ -22,6 +22,21 @@ std::vector<Rows> targets(int n) {
   return sample;
 }
 
+double root_mean_square(const std::vector<double>& values) {
+  double sum = 0;
+  for (double v : values) sum += v * v;
+  return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+std::vector<double> sizes(int n, const FieldArrays<3>& field) {
+  std::vector<double> finite;
+  for (int i = 0; i < n; ++i) {
+    const double size = std::hypot(field[0][i], field[1][i], field[2][i]);
+    if (std::isfinite(size)) finite.push_back(size);
+  }
+  return finite;
+}
+
 FieldError::Quantiles quantiles(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const auto at = [&](double part) {
@@ -56,14 +71,10 @@ FieldError field_error(const PointCharges<3>& points, const FieldArrays<3>& fiel
   FieldError error;
   error.targets = static_cast<int>(size.size());
   if (size.empty()) return error;
-  double difference2 = 0, size2 = 0;
-  for (std::size_t k = 0; k < size.size(); ++k) {
-    difference2 += difference[k] * difference[k];
-    size2 += size[k] * size[k];
-  }
-  const double rms = std::sqrt(size2 / static_cast<double>(size.size()));
+  const double rms =
+      points.n <= compared_whole ? root_mean_square(size) : root_mean_square(sizes(points.n, field));
   const auto relative = [](double d, double s) { return s > 0 ? d / s : d; };
-  error.l2 = relative(std::sqrt(difference2), std::sqrt(size2));
+  error.l2 = relative(root_mean_square(difference), rms);
   std::vector<double> own, common;
   for (std::size_t k = 0; k < size.size(); ++k) {
     own.push_back(relative(difference[k], size[k]));
