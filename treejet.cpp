@@ -41,13 +41,17 @@ Threads threads(const Arguments& a, const Ranks& ranks) {
   return threads;
 }
 
+OutputFile::Existing existing(const Arguments& a) {
+  return a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
+}
+
 template <int D>
 int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* checkpoint) {
-  ranks.require_same(version_text(), deck_description(deck.name, deck.text, deck.overrides));
+  const Provenance made_by = provenance(deck, vector_path());
+  ranks.require_same(program(made_by), deck_description(deck.name, deck.text, deck.overrides));
   const Parameters& p = deck.parameters;
   const Threads each = threads(a, ranks);
   const std::string directory = checkpoint ? a.resume : a.out;
-  const auto existing = a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
   // ranks meet signals at different steps and have clocks of their own: the first one's clock counts, and all
   // follow the strongest wish
   std::optional<Interruption> interruption;
@@ -63,17 +67,16 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* ch
   Simulation<D> simulation(
       deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector, scene.holding()},
       {{directory,
-        existing,
+        existing(a),
         a.quiet,
         !ranks.first(),
-        provenance(deck, vector_path()),
+        made_by,
         {ranks.size(), each.count},
         scene.force_error()},
-       version_text(),
        wish,
        checkpoint});
   if (!a.quiet) {
-    fmt::print("{}\n{}\n{}{}", version_text(), deck.name, notes(deck),
+    fmt::print("{}\n{}\n{}{}", program(made_by), deck.name, notes(deck),
                composition(scene.composed, scene.left_out));
     fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p),
                workers_description(ranks, each));
@@ -91,14 +94,17 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* ch
   return 0;
 }
 
+int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* checkpoint = nullptr) {
+  const bool straight = deck.parameters.system == 1;
+  return straight ? run<1>(deck, a, ranks, checkpoint) : run<3>(deck, a, ranks, checkpoint);
+}
+
 int resume(const Arguments& a, const Ranks& ranks) {
   Resumption stopped = resumption(a.resume, version_text());
   if (ranks.first())
     for (const auto& w : stopped.warnings) fmt::print(stderr, "treejet: warning: {}\n", w);
   if (!a.deck.empty()) expect_same(read_deck(a.deck, a.overrides), stopped.deck);
-  const bool straight = stopped.deck.parameters.system == 1;
-  return straight ? run<1>(stopped.deck, a, ranks, &stopped.checkpoint)
-                  : run<3>(stopped.deck, a, ranks, &stopped.checkpoint);
+  return run(stopped.deck, a, ranks, &stopped.checkpoint);
 }
 
 template <int D>
@@ -120,20 +126,18 @@ int main(const Arguments& a, const Ranks& ranks) {
   if (a.command == "template") return fmt::print("{}", deck_template()), 0;
   if (a.command == "reference") return fmt::print("{}\n{}", directive_reference(), key_reference()), 0;
   if (a.command == "field") {
-    run({a.points, a.field_out, coulomb_request(a.coulomb), threads(a, ranks), ranks, a.repeat, a.compare,
-         a.json},
+    run({a.points, a.field_out, coulomb_request(a.coulomb, /*points_move*/ false), threads(a, ranks), ranks,
+         a.repeat, a.compare, a.json},
         std::cout);
     return 0;
   }
-  const auto existing = a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
   if (a.command == "convert")
-    return fmt::print("{}\n", convert({a.file, a.format, a.converted, existing})), 0;
+    return fmt::print("{}\n", convert({a.file, a.format, a.converted, existing(a)})), 0;
   if (a.command == "info") return fmt::print("{}", file_info(a.file)), 0;
   if (!a.resume.empty()) return resume(a, ranks);
   const Deck deck = read_deck(a.deck, a.overrides);
-  const bool straight = deck.parameters.system == 1;
-  if (a.command == "run") return straight ? run<1>(deck, a, ranks, nullptr) : run<3>(deck, a, ranks, nullptr);
-  straight ? check<1>(deck) : check<3>(deck);
+  if (a.command == "run") return run(deck, a, ranks);
+  deck.parameters.system == 1 ? check<1>(deck) : check<3>(deck);
   return 0;
 }
 

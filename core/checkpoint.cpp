@@ -4,9 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
@@ -30,16 +28,6 @@ std::uint64_t checksum(std::string_view bytes) {
   return crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
 }
 
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::error_code error;
-  const auto size = fs::file_size(file, error);
-  std::string bytes(error ? 0 : size, '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!stream) throw FileError(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
-  return bytes;
-}
-
 }  // namespace
 
 bool State::has(const std::string& name) const {
@@ -56,7 +44,7 @@ Checkpoint read_checkpoint(const fs::path& file) {
   const auto refuse = [&](std::string_view why) {
     throw FileError(fmt::format("{}: {}", file.string(), why));
   };
-  const std::string bytes = contents(file);
+  const std::string bytes = read_whole(file);
   const std::string_view all = bytes;
   constexpr std::string_view ours = title.substr(0, title.rfind(' '));
   if (!all.starts_with(title.substr(0, std::min(title.size(), all.size()))))

@@ -1,11 +1,14 @@
 #include "core/command_line.hpp"
 
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <map>
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/frame_writer.hpp"
 
 namespace treejet {
 
@@ -104,9 +107,14 @@ void add_field(CLI::App& app, Arguments& a) {
 void add_files(CLI::App& app, Arguments& a) {
   auto& convert = *app.add_subcommand("convert", "Write a traj.h5 in the format of another tool");
   convert.add_option("FILE", a.file, "traj.h5 of a run")->required();
-  convert.add_option("--to", a.format, "xyz (VMD), extxyz (OVITO, ASE), csv, vtp (ParaView)")
+  std::vector<std::string> names, meanings;
+  for (const FrameFormat& f : frame_formats) {
+    names.emplace_back(f.name);
+    meanings.push_back(fmt::format("{} ({})", f.name, f.readers));
+  }
+  convert.add_option("--to", a.format, fmt::format("{}", fmt::join(meanings, ", ")))
       ->required()
-      ->check(CLI::IsMember({"xyz", "extxyz", "csv", "vtp"}));
+      ->check(CLI::IsMember(names));
   convert.add_option("--out", a.converted,
                      "the file (default: beside FILE, with the extension of the format)");
   convert.add_flag("--force", a.force, "replace files that are there already");

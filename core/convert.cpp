@@ -19,8 +19,7 @@ std::string convert(const Conversion& c) {
   const H5md file(c.from, Hdf5File::Access::read);
   const auto format = std::find_if(frame_formats.begin(), frame_formats.end(),
                                    [&](const FrameFormat& f) { return c.to == f.name; });
-  if (format == frame_formats.end())
-    throw InputError(fmt::format("--to {}: expected xyz, extxyz, csv or vtp", c.to));
+  if (format == frame_formats.end()) throw InputError(fmt::format("--to {}: no such format", c.to));
   std::filesystem::path out = c.out;
   if (out.empty()) out = std::filesystem::path(c.from).replace_extension(format->extension);
 

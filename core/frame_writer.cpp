@@ -103,9 +103,9 @@ std::unique_ptr<FrameWriter> made(const FrameWriterSetting& s) {
 
 }  // namespace
 
-const std::array<FrameFormat, 4> frame_formats{{{"xyz", ".xyz", made<Xyz>},
-                                                {"extxyz", ".extxyz", made<ExtendedXyz>},
-                                                {"csv", ".csv", made<Csv>},
-                                                {"vtp", ".pvd", vtp_writer}}};
+const std::array<FrameFormat, 4> frame_formats{{{"xyz", ".xyz", "VMD", made<Xyz>},
+                                                {"extxyz", ".extxyz", "OVITO, ASE", made<ExtendedXyz>},
+                                                {"csv", ".csv", "pandas, gnuplot", made<Csv>},
+                                                {"vtp", ".pvd", "ParaView", vtp_writer}}};
 
 }  // namespace treejet

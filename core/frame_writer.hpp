@@ -2,10 +2,13 @@
 /// Frames in the formats of other tools; what `treejet convert` writes. Lengths stay in cm, all else in CGS,
 /// numbers are written so that reading gives them back to the last bit.
 ///
-///     xyz      for VMD: lines `C x y z`, as many a frame as there are points
-///     extxyz   extended XYZ for OVITO and ASE: id, species (C a bead, X the nozzle), pos, velocity, stress,
-///     ... csv      a header with units, then a row a point: `frame,t[s],id,x[cm],...` vtp      for ParaView:
-///     NAME.pvd and the files of its frames in NAME-frames/, a polyline each
+///     xyz      lines `C x y z`, as many a frame as there are points
+///
+///     extxyz   extended XYZ: id, species (C a bead, X the nozzle), pos, velocity, stress and so on
+///
+///     csv      a header with units, then a row a point: `frame,t[s],id,x[cm],...`
+///
+///     vtp      NAME.pvd and the files of its frames in NAME-frames/, a polyline each
 ///
 /// The XML of VTK is written by hand: the library that would do it is larger than this program by two orders.
 
@@ -29,9 +32,11 @@ struct FrameWriterSetting {
   std::string made_by;  ///< a line
 };
 
-/// Formats, in the order above, and the extension of each one's file.
+/// Formats, in the order above.
 struct FrameFormat {
-  const char *name, *extension;
+  const char* name;
+  const char* extension;  ///< of its file
+  const char* readers;    ///< programs it is for
   std::unique_ptr<FrameWriter> (*writer)(const FrameWriterSetting&);
 };
 extern const std::array<FrameFormat, 4> frame_formats;

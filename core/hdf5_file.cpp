@@ -234,21 +234,6 @@ bool Hdf5File::has(const std::string& name) const {
   }
 }
 
-std::vector<std::string> Hdf5File::members(const std::string& group) const {
-  const Checker check(path_, group);
-  const Handle g(check(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), "cannot be read"), H5Gclose);
-  std::vector<std::string> names;
-  check(H5Literate(
-            g, H5_INDEX_NAME, H5_ITER_INC, nullptr,
-            [](hid_t, const char* name, const H5L_info_t*, void* to) -> herr_t {
-              static_cast<std::vector<std::string>*>(to)->emplace_back(name);
-              return 0;
-            },
-            &names),
-        "cannot be read");
-  return names;
-}
-
 Extent Hdf5File::extent(const std::string& dataset) const {
   const Checker check(path_, dataset);
   const Handle set(check(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), "cannot be read"), H5Dclose);

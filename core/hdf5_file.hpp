@@ -41,8 +41,6 @@ class Hdf5File {
   /// Everything to the system; the object is of no further use.
   void close();
 
-  const std::filesystem::path& path() const { return path_; }
-
   /// Each makes the groups above it.
   void group(const std::string& name);
   void dataset(const std::string& name, const Layout& layout);
@@ -57,7 +55,6 @@ class Hdf5File {
   void attribute(const std::string& object, const std::string& name, const std::vector<int>& values);
 
   bool has(const std::string& name) const;
-  std::vector<std::string> members(const std::string& group) const;
   Extent extent(const std::string& dataset) const;
   std::string text(const std::string& dataset) const;
   std::string text_attribute(const std::string& object, const std::string& name) const;

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "core/archive.hpp"
-#include "core/error.hpp"
 
 namespace treejet {
 
@@ -32,16 +31,18 @@ int flags(OutputFile::Existing existing) {
 
 }  // namespace
 
+FileError exists_already(const fs::path& path) {
+  return FileError(fmt::format(
+      "{}: exists already; choose another directory with --out, or --force to replace it", path.string()));
+}
+
 OutputFile::OutputFile(fs::path path, Existing existing)
     : path_(std::move(path)), is_new_(existing != Existing::resume) {
   std::error_code error;
   if (is_new_ && !path_.parent_path().empty()) fs::create_directories(path_.parent_path(), error);
   if (error) throw FileError(fmt::format("{}: {}", path_.parent_path().string(), error.message()));
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | flags(existing), 0666);
-  if (descriptor_ < 0 && existing == Existing::keep && errno == EEXIST) {
-    throw FileError(fmt::format(
-        "{}: exists already; choose another directory with --out, or --force to replace it", path_.string()));
-  }
+  if (descriptor_ < 0 && existing == Existing::keep && errno == EEXIST) throw exists_already(path_);
   if (descriptor_ < 0) fail("cannot be opened");
   if (existing == Existing::replace) cut(0);
 }

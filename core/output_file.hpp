@@ -11,9 +11,14 @@
 #include <string>
 #include <string_view>
 
+#include "core/error.hpp"
+
 namespace treejet {
 
 class Archive;
+
+/// Of a file that is not to be replaced.
+FileError exists_already(const std::filesystem::path& path);
 
 class OutputFile {
  public:

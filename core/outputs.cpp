@@ -29,6 +29,20 @@ std::vector<std::string> after_time(std::vector<std::string> keys) {
   return keys;
 }
 
+bool makes_table(const Parameters& p, const OutputSetting& setting) {
+  // a run stopped quietly may not have kept the windows of a table
+  return !p.print_list.empty() && !setting.quiet && (!setting.resumed || setting.resumed->has("rows"));
+}
+
+std::vector<std::string> hdf5_observables(const Parameters& p) {
+  return p.print_hdf5 ? reproducible_keys(p.print_list) : std::vector<std::string>();
+}
+
+/// All ranks must be of one opinion: who makes no rows here contributes to them.
+bool makes_rows(const Parameters& p, const OutputSetting& setting) {
+  return makes_table(p, setting) || !p.printstat_list.empty() || !hdf5_observables(p).empty();
+}
+
 template <int D>
 class Contribution final : public Sampling<D> {
  public:
@@ -66,19 +80,16 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
     return OutputFile(files_.back(), setting.existing);
   };
   const std::shared_ptr<TrajectoryFile> hdf5 = p.print_hdf5 ? trajectory_file(p, setting) : nullptr;
-  const std::vector<std::string> observables =
-      hdf5 ? reproducible_keys(p.print_list) : std::vector<std::string>();
-  // a run stopped quietly may not have kept the windows of a table
-  const bool table =
-      !p.print_list.empty() && !setting.quiet && (!setting.resumed || setting.resumed->has("rows"));
-  if (table || !p.printstat_list.empty() || !observables.empty()) {
+  if (makes_rows(p, setting)) {
     auto rows = recorder<D>(p, nozzle, collector, setting.force_error);
-    rows->add(p.print_list, table ? std::make_unique<TerminalTable>(p.print_list) : nullptr);
+    rows->add(p.print_list,
+              makes_table(p, setting) ? std::make_unique<TerminalTable>(p.print_list) : nullptr);
     if (!p.printstat_list.empty()) {
       rows->add(p.printstat_list,
                 std::make_unique<StatFile>(file("statdat.dat"), p.printstat_list, setting.made_by));
     }
-    if (!observables.empty()) rows->add(after_time(observables), std::make_unique<Hdf5Rows>(hdf5));
+    if (const auto keys = hdf5_observables(p); !keys.empty())
+      rows->add(after_time(keys), std::make_unique<Hdf5Rows>(hdf5));
     watch("rows", std::move(rows), holding);
   }
   if (p.print_xyz) {
@@ -120,9 +131,7 @@ void Outputs<D>::contribute(const Parameters& p, const OutputSetting& setting, c
   const auto contribution = [&](double interval) {
     watch("", std::make_unique<Contribution<D>>(interval / s.time), holding);
   };
-  if ((!p.print_list.empty() && !setting.quiet) || !p.printstat_list.empty() ||
-      (p.print_hdf5 && !reproducible_keys(p.print_list).empty()))
-    contribution(print_interval(p));
+  if (makes_rows(p, setting)) contribution(print_interval(p));
   if (p.print_xyz) contribution(*p.print_xyz);
   if (p.print_hdf5) contribution(*p.print_hdf5);
 }
@@ -132,8 +141,8 @@ std::shared_ptr<TrajectoryFile> Outputs<D>::trajectory_file(const Parameters& p,
                                                             const OutputSetting& setting) {
   const auto path = setting.directory / "traj.h5";
   files_.insert(files_.end(), {path, setting.directory / "traj.xdmf"});
-  return std::make_shared<TrajectoryFile>(
-      path, H5md::Content{setting.made_by, reproducible_keys(p.print_list)}, setting.existing);
+  return std::make_shared<TrajectoryFile>(path, H5md::Content{setting.made_by, hdf5_observables(p)},
+                                          setting.existing);
 }
 
 template <int D>

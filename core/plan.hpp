@@ -39,7 +39,7 @@ struct TrialSample {
 
 struct Trial {
   std::vector<TrialSample> samples;  ///< the first one at the start
-  bool complete = false;  ///< to the final time
+  bool complete = false;             ///< to the final time
 };
 
 struct Plan {

@@ -66,9 +66,7 @@ RunRecord::RunRecord(const Setting& setting) : path_(setting.directory / run_rec
   using Existing = OutputFile::Existing;
   std::error_code error;
   const bool there = fs::exists(path_, error);
-  if (there && setting.existing == Existing::keep)
-    throw FileError(fmt::format(
-        "{}: exists already; choose another directory with --out, or --force to replace it", path_.string()));
+  if (there && setting.existing == Existing::keep) throw exists_already(path_);
   Json record = there && setting.existing == Existing::resume ? read_record(path_) : record_of(setting);
   record["segments"].push_back({{"started", now()},
                                 {"host", host()},

@@ -47,9 +47,7 @@ TrajectoryFile::TrajectoryFile(const fs::path& path, H5md::Content content, Outp
     : path_(path), content_(std::move(content)) {
   if (existing == OutputFile::Existing::resume) return;
   std::error_code error;
-  if (existing == OutputFile::Existing::keep && fs::exists(path_, error))
-    throw FileError(fmt::format(
-        "{}: exists already; choose another directory with --out, or --force to replace it", path_.string()));
+  if (existing == OutputFile::Existing::keep && fs::exists(path_, error)) throw exists_already(path_);
   if (!path_.parent_path().empty()) fs::create_directories(path_.parent_path(), error);
   if (error) throw FileError(fmt::format("{}: {}", path_.parent_path().string(), error.message()));
   fs::remove(twin(), error);

@@ -21,6 +21,16 @@ void check(bool done, const fs::path& path, const char* what) {
 }
 }  // namespace
 
+std::string read_whole(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::error_code error;
+  const auto size = fs::file_size(path, error);
+  std::string bytes(error ? 0 : size, '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  check(bool(stream), path, "cannot be read");
+  return bytes;
+}
+
 void write_whole(const fs::path& path, std::string_view text) {
   const fs::path fresh = path.string() + ".next";
   std::ofstream stream(fresh, std::ios::trunc);

@@ -3,10 +3,12 @@
 /// Errors: FileError; the old file stays.
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace treejet {
 
+std::string read_whole(const std::filesystem::path& path);
 void write_whole(const std::filesystem::path& path, std::string_view text);
 
 /// Puts a finished file in the place of another, at one instant.

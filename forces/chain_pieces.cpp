@@ -11,10 +11,6 @@ namespace {
 
 constexpr int least_share = 4;
 
-std::size_t index(int k) {
-  return static_cast<std::size_t>(k);
-}
-
 /// A bead on its way: its row, mass and charge.
 constexpr int words = 2 * 3 + 1 + 2;
 using Beads = Eigen::Array<double, words, Eigen::Dynamic>;
@@ -58,8 +54,13 @@ ChainPieces::ChainPieces(int beads, const Ranks& ranks) : ranks_(ranks) {
   cut(beads);
 }
 
+/// The beads of a rank that is not behind the end.
+int ChainPieces::fair_share(int beads) const {
+  return std::max(least_share, (beads + ranks_.size() - 1) / ranks_.size());
+}
+
 void ChainPieces::cut(int beads) {
-  const int share = std::max(least_share, (beads + ranks_.size() - 1) / ranks_.size());
+  const int share = fair_share(beads);
   counts_.resize(index(ranks_.size()));
   for (int k = 0; k < ranks_.size(); ++k)
     counts_[index(k)] = static_cast<int>(std::clamp<std::int64_t>(beads - std::int64_t{k} * share, 0, share));
@@ -132,7 +133,7 @@ void ChainPieces::after_removal(Jet<3>& jet) {
 /// An arriving bead is looked at together with the one above it: both on one rank.
 bool ChainPieces::out_of_balance() const {
   const int most = *std::max_element(counts_.begin(), counts_.end());
-  const int share = std::max(least_share, (total() + ranks_.size() - 1) / ranks_.size());
+  const int share = fair_share(total());
   return most > share + share / 5 + 1 || (total() > 1 && counts_[index(end(0))] < 2);
 }
 

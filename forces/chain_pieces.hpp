@@ -52,6 +52,7 @@ class ChainPieces final : public Holding<3> {
   int first(int rank) const;
   int end(int which) const;
   int neighbour(int step) const;
+  int fair_share(int beads) const;
   void cut(int beads);
   bool out_of_balance() const;
   void recut(Jet<3>& jet);

@@ -6,10 +6,6 @@ namespace {
 
 constexpr int columns_of_a_row = 2 * 3 + 1;
 
-std::size_t index(int k) {
-  return static_cast<std::size_t>(k);
-}
-
 std::vector<double> row(const Table<3>& y, int i) {
   const Eigen::Array<double, 1, columns_of_a_row> values = y.row(i);
   return {values.data(), values.data() + values.size()};

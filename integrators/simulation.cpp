@@ -24,7 +24,7 @@ Simulation<D>::Simulation(const Deck& deck, const Scene& scene, const Setting& s
     : deck_(deck),
       jet_(scene.jet),
       holding_(scene.holding),
-      setting_{output_setting(setting.outputs, setting.resumed), setting.program, setting.wish},
+      setting_{output_setting(setting.outputs, setting.resumed), setting.wish},
       checkpoints_(setting.outputs.elsewhere
                        ? std::nullopt
                        : std::optional<Checkpoints>({setting_.outputs.directory, setting_.outputs.existing})),
@@ -49,7 +49,7 @@ bool Simulation<D>::pause() {
   const Wish wish = setting_.wish();
   if (wish == Wish::go_on) return false;
   if (!checkpoints_) return wish == Wish::stop;
-  Checkpoint checkpoint{setting_.program, deck_.name, deck_.text, deck_.overrides, t(), {}};
+  Checkpoint checkpoint{program(setting_.outputs.made_by), deck_.name, deck_.text, deck_.overrides, t(), {}};
   visit(checkpoint.state);
   checkpoints_->write(checkpoint);
   return wish == Wish::stop;

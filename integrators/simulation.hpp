@@ -32,7 +32,6 @@ class Simulation {
 
   struct Setting {
     OutputSetting outputs;
-    std::string program = {};                                 ///< what checkpoints say made them
     std::function<Wish()> wish = [] { return Wish::go_on; };  ///< asked between any two steps
     Checkpoint* resumed = nullptr;  ///< of the same deck, to go on from; null for a new run
   };

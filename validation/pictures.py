@@ -1,6 +1,7 @@
 """What all pictures of the validation share: colours, reading of tables, the finish."""
 
 import csv
+import sys
 
 import matplotlib
 
@@ -24,6 +25,13 @@ VOLTAGES = {"6": "#440154", "9": "#2a9d8f", "11": "#e76f51"}
 CASES = {"case 1": "case 1: one bead", "case 2": "case 2: straight jet", "case 3": "case 3: PVP jet"}
 
 written = []  # the pictures, in the order of their making
+
+
+def exit_code(program, complaints):
+    """Of a program that has done what could be done, once it has told what could not."""
+    for complaint in complaints:
+        print(f"{program}: {complaint}", file=sys.stderr)
+    return 4 if complaints else 0
 
 
 def table(path):

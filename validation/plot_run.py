@@ -14,14 +14,13 @@ from collections import deque
 from itertools import islice
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
+
+from pictures import exit_code
 
 COLOURS = plt.get_cmap("viridis")
 INK = "0.25"
@@ -222,9 +221,7 @@ def main():
             complaints.append(str(problem))
     if not drawn and not complaints:
         complaints.append(f"{options.run}: neither traj.xyz nor statdat.dat is here")
-    for complaint in complaints:
-        print(f"plot_run: {complaint}", file=sys.stderr)
-    return 4 if complaints else 0
+    return exit_code("plot_run", complaints)
 
 
 if __name__ == "__main__":

@@ -12,10 +12,6 @@ using namespace treejet;
 
 namespace {
 
-std::size_t index(int k) {
-  return static_cast<std::size_t>(k);
-}
-
 /// The share of a rank: equal ones, or growing ones of which that of the second rank is empty.
 Rows equal_share(int n, const Ranks& ranks) {
   const std::vector<int> borders = ranks.borders({0, n}, 1);

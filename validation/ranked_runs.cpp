@@ -8,37 +8,19 @@ using namespace treejet;
 
 namespace {
 
-/// A jet from nozzle to collector, so fast that a bead leaves and another comes every few steps.
-Parameters stream(int points, const std::string& more) {
-  return parse_deck(fmt::format(R"(system 3
-final time 1
-print time 1
-inserting yes
-removing yes
-gravity yes
-points {}
-initial length 1
-nozzle cross 5.d-4
-nozzle velocity 200
-density mass 0.84
-density charge 44000
-viscosity 20
-elastic modulus 50000
-collector distance 1.0005
-external potential 1.9
-surface tension 21.13
-perturb yes
-perturb freq 1.d+4
-perturb ampl 1.d-3
-{}
-finish
-)",
-                                points, more),
-                    "stream")
-      .parameters;
+using Directives = std::vector<std::string>;
+
+Parameters stream(int points, const Directives& steps, const Directives& more = {}) {
+  Directives all = {"final time 1", "print time 1", "printstat list t", "perturb ampl 1.d-3",
+                    fmt::format("points {}", points)};
+  all.insert(all.end(), steps.begin(), steps.end());
+  all.insert(all.end(), more.begin(), more.end());
+  return read_deck(TREEJET_SOURCE_DIR "/validation/decks/stream.dat", all).parameters;
 }
 
-const std::string distributed = "\nparallel distributed\nmultirate no\ncoulomb tree\ncoulomb accuracy ";
+Directives in_pieces(const std::string& accuracy) {
+  return {"parallel distributed", "multirate no", "coulomb tree", "coulomb accuracy " + accuracy};
+}
 
 struct Flight {
   std::vector<Jet<3>> jets;  ///< whole ones, on the first rank
@@ -84,8 +66,8 @@ double told_by_first(double found, const Ranks& ranks) {
 TEST_CASE("A run of pieces is the replicated one through insertions, removals and new cuts") {
   const Ranks& ranks = started_ranks();
   const double seconds = 1e-3, interval = 2e-4;
-  const Flight whole = flight(stream(60, "tolerance 1.d-7\nmultirate no"), {}, seconds, interval);
-  const Parameters p = stream(60, "tolerance 1.d-7" + distributed + "1.d-6");
+  const Flight whole = flight(stream(60, {"tolerance 1.d-7", "multirate no"}), {}, seconds, interval);
+  const Parameters p = stream(60, {"tolerance 1.d-7"}, in_pieces("1.d-6"));
   const Flight pieces = flight(p, ranks, seconds, interval);
   CHECK(pieces.effort.released > 10);
   CHECK(pieces.effort.removed > 10);
@@ -98,9 +80,9 @@ TEST_CASE("A run of pieces is the replicated one through insertions, removals an
 TEST_CASE("A run of pieces that see each other through expansions keeps the accuracy") {
   const Ranks& ranks = started_ranks();
   const double seconds = 2e-5, interval = 1e-5;
-  const std::string steps = "timestep 1.d-6\nintegrator heun";
+  const Directives steps = {"timestep 1.d-6", "integrator heun"};
   const Flight whole = flight(stream(900, steps), {}, seconds, interval);
-  const Parameters p = stream(900, steps + distributed + "1.d-4");
+  const Parameters p = stream(900, steps, in_pieces("1.d-4"));
   const Flight pieces = flight(p, ranks, seconds, interval);
   CHECK(pieces.effort.removed > 2);
   const double apart = told_by_first(difference(pieces, whole, p), ranks);
@@ -112,7 +94,7 @@ TEST_CASE("A run of pieces that see each other through expansions keeps the accu
 TEST_CASE("Pieces of a jet of one bead, and of one that empties") {
   const Ranks& ranks = started_ranks();
   // from a single bead to several, with more ranks than beads
-  Parameters p = stream(2, "tolerance 1.d-6" + distributed + "1.d-5");
+  Parameters p = stream(2, {"tolerance 1.d-6"}, in_pieces("1.d-5"));
   p.points = 1;
   p.initial_length = 0.1;
   Parameters alone = p;
@@ -122,7 +104,7 @@ TEST_CASE("Pieces of a jet of one bead, and of one that empties") {
   CHECK(pieces.effort.released > 3);
   CHECK(told_by_first(difference(pieces, whole, p), ranks) < 1e-5);  // the accuracy of the field, as above
   // nothing follows what leaves
-  p = stream(6, "tolerance 1.d-6" + distributed + "1.d-5");
+  p = stream(6, {"tolerance 1.d-6"}, in_pieces("1.d-5"));
   p.inserting = false;
   p.perturb = false;
   const Flight emptied = flight(p, ranks, 1e-2, 1e-3);

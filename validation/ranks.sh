@@ -20,37 +20,9 @@ is() { [ "$2" = "$3" ] || fail "$1: expected '$3', found '$2'"; }
 on() { ranks=$1; shift; timeout 60 "$mpiexec" "$flag" "$ranks" "$@"; }
 
 # scene "DIRECTIVES" RANKSxTHREADS...: the files of a run by each of these against those of one rank and thread.
-# 1100 beads, enough for four threads, stream from nozzle to collector, 4.5 us a bead.
 scene() {
   name=$(echo "$1" | tr '\n' ' ')
-  cat >deck.dat <<END
-system 3
-final time 3.d-5
-print time 2.d-6
-printstat list t x yz n f l vc curn curc rc lp angl
-print xyz 2.d-6
-print hdf5 4.d-6
-print xyz maxnum 1200
-inserting yes
-removing yes
-gravity yes
-points 1100
-initial length 1
-nozzle cross 5.d-4
-nozzle velocity 200
-density mass 0.84
-density charge 44000
-viscosity 20
-elastic modulus 50000
-collector distance 1.0005
-external potential 1.9
-surface tension 21.13
-perturb yes
-perturb freq 1.d+4
-perturb ampl 1.d-4
-$1
-finish
-END
+  { grep -v '^finish' "$source/validation/decks/stream.dat" && printf '%s\nfinish\n' "$1"; } >deck.dat
   shift
   rm -rf one many
   "$treejet" run deck.dat --quiet --threads 1 --out one 2>err || fail "$name: $(cat err)"

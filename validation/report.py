@@ -90,9 +90,7 @@ def main():
         print(f"wrote {directory / 'report.html'}")
     except (OSError, KeyError) as problem:
         complaints.append(f"{type(problem).__name__}: {problem}")
-    for complaint in complaints:
-        print(f"report: {complaint}", file=sys.stderr)
-    return 4 if complaints else 0
+    return pictures.exit_code("report", complaints)
 
 
 if __name__ == "__main__":

@@ -108,14 +108,12 @@ std::string cores(const Ranks& ranks) {
   std::size_t low = 0, high = mine.size() - 1;
   while (low < high && !mine[low]) ++low;
   while (high > low && !mine[high]) --high;
-  std::vector<double> first(static_cast<std::size_t>(ranks.size())), last = first;
-  first[static_cast<std::size_t>(ranks.rank())] = double(low);
-  last[static_cast<std::size_t>(ranks.rank())] = double(high);
-  ranks.gather(std::array{first.data(), last.data()}, ranks.borders({0, ranks.size()}, 1));
+  const double own[] = {double(low), double(high)};
+  const std::vector<double> ends = ranks.of_all(own);
   std::string text;
-  for (std::size_t k = 0; k < first.size(); ++k) {
+  for (std::size_t k = 0; k < ends.size(); k += 2) {
     if (k > 0) text += ",";
-    text += first[k] == last[k] ? fmt::format("{}", first[k]) : fmt::format("{}-{}", first[k], last[k]);
+    text += ends[k] == ends[k + 1] ? fmt::format("{}", ends[k]) : fmt::format("{}-{}", ends[k], ends[k + 1]);
   }
   return text;
 }

@@ -1,13 +1,10 @@
 #pragma once
-/// A directory of its own for a test, gone with it; and what a file in it holds.
+/// A directory of its own for a test, gone with it.
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
 
 namespace treejet {
 
@@ -22,12 +19,5 @@ struct Place {
   ~Place() { std::filesystem::remove_all(path); }
   std::filesystem::path path;
 };
-
-inline std::string contents(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 }  // namespace treejet

@@ -3,24 +3,17 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 #include "validation/studies.hpp"
+#include "validation/team.hpp"
 
 namespace treejet {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// 1100 beads, enough for four threads, stream from nozzle to collector; seven are taken away.
-const std::vector<std::string> streaming = {
-    "final time 3.d-5",          "print time 2.d-6",       "print xyz 2.d-6",
-    "print hdf5 4.d-6",          "print xyz maxnum 1200",  "points 1100",
-    "initial length 1.",         "nozzle cross 5.d-4",     "nozzle velocity 200.",
-    "collector distance 1.0005", "external potential 1.9", "perturb ampl 1.d-4"};
 
 struct Scene {
   std::string name;
@@ -34,12 +27,8 @@ const std::vector<Scene> scenes = {
     {"tree in space",
      {"tolerance 1.d-6", "multirate no", "coulomb tree space", "coulomb tree", "coulomb accuracy 1.d-3"}}};
 
-struct Team {
-  int ranks, threads;
-};
-
 std::vector<Team> teams(bool quick) {
-  if (!*TREEJET_MPIEXEC) return {{1, 2}, {1, 4}};
+  if (mpi_launcher().empty()) return {{1, 2}, {1, 4}};
   if (quick) return {{1, 4}, {2, 1}, {3, 2}};
   std::vector<Team> all;
   for (const int ranks : {1, 2, 3, 5})
@@ -48,26 +37,11 @@ std::vector<Team> teams(bool quick) {
   return all;
 }
 
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw FileError(file.string() + ": was not written");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 void run(const Scene& scene, const Team& team, const fs::path& results) {
-  std::string line = "OMP_WAIT_POLICY=passive ";
-  if (team.ranks > 1)
-    line += fmt::format(
-        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
-        "OMPI_MCA_hwloc_base_binding_policy=none '{}' -n {} ",
-        TREEJET_MPIEXEC, team.ranks);
-  line += fmt::format("'{}' run '{}/examples/pvp/input.dat' --quiet --force --threads {} --out '{}'",
-                      TREEJET_PROGRAM, TREEJET_SOURCE_DIR, team.threads, results.string());
-  for (const auto* directives : {&streaming, &scene.directives})
-    for (const auto& d : *directives) line += fmt::format(" --set '{}'", d);
-  line += " 2>/dev/null";
+  std::string arguments = fmt::format("run '{}/validation/decks/stream.dat' --quiet --force --out '{}'",
+                                      TREEJET_SOURCE_DIR, results.string());
+  for (const auto& d : scene.directives) arguments += fmt::format(" --set '{}'", d);
+  const std::string line = launch_line(team, /*pinned*/ false, TREEJET_PROGRAM, arguments) + " 2>/dev/null";
   if (std::system(line.c_str()) != 0) throw Error(1, "failed: " + line);
 }
 
@@ -90,9 +64,9 @@ void study_determinism(Report& report) {
       run(scene, team, many);
       std::int64_t bytes = 0, differing = 0;
       for (const char* file : {"statdat.dat", "traj.xyz", "traj.h5", "traj.xdmf"}) {
-        const auto expected = contents(one / file);
+        const auto expected = read_whole(one / file);
         bytes += std::int64_t(expected.size());
-        differing += contents(many / file) != expected;
+        differing += read_whole(many / file) != expected;
       }
       table.row({scene.name, std::int64_t{team.ranks}, std::int64_t{team.threads}, bytes, differing});
       all_differing += differing;

@@ -5,13 +5,12 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <fstream>
 #include <random>
-#include <sstream>
 #include <thread>
 
 #include "core/error.hpp"
 #include "core/file_info.hpp"
+#include "core/whole_file.hpp"
 #include "validation/studies.hpp"
 
 namespace treejet {
@@ -48,14 +47,6 @@ const Scene scenes[] = {
 /// Those of lines grow at their ends; traj.h5 gets its final form when all is done.
 const char* const files[] = {"statdat.dat", "traj.xyz", "traj.h5", "traj.xdmf"};
 constexpr std::size_t files_of_lines = 2;
-
-/// Empty if there is no such file.
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 /// treejet run, quietly, in a process of its own.
 pid_t started(const std::vector<std::string>& arguments) {
@@ -107,7 +98,7 @@ class Trial {
     if (ended(started(with({"--out", whole, "--force", "--threads", "1"})), 600) != 0)
       throw Error(1, "the run that nobody kills fails");
     seconds_ = std::chrono::duration<double>(Clock::now() - begin).count();
-    for (const char* file : files) whole_.push_back(contents(whole / file));
+    for (const char* file : files) whole_.push_back(read_whole(whole / file));
   }
 
   /// One life after the other, until a run is complete; the last life, after so many kills, is left alone.
@@ -131,7 +122,7 @@ class Trial {
     }
     ++tally.completed;
     for (std::size_t k = 0; k < whole_.size(); ++k)
-      tally.differing += contents(directory_ / files[k]) != whole_[k];
+      tally.differing += read_whole(directory_ / files[k]) != whole_[k];
   }
 
  private:
@@ -150,7 +141,8 @@ class Trial {
 
   void look(Tally& tally) const {
     for (std::size_t k = 0; k < files_of_lines; ++k) {
-      const std::string found = contents(directory_ / files[k]);
+      const fs::path file = directory_ / files[k];
+      const std::string found = fs::exists(file) ? read_whole(file) : "";
       tally.astray += !whole_[k].starts_with(found);
       tally.cut_records += !found.empty() && found.back() != '\n';
     }

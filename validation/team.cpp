@@ -30,10 +30,16 @@ std::string environment(const Team& team, bool pinned) {
 
 }  // namespace
 
-std::string output(const Team& team, int cores, const std::string& arguments) {
-  std::string line = environment(team, team.workers() <= cores);
+std::string launch_line(const Team& team, bool pinned, const std::string& program,
+                        const std::string& arguments) {
+  std::string line = environment(team, pinned);
   if (team.ranks > 1) line += fmt::format("'{}' -n {} ", mpi_launcher(), team.ranks);
-  line += fmt::format("'{}' {}", std::filesystem::read_symlink("/proc/self/exe").string(), arguments);
+  return line + fmt::format("'{}' {}", program, arguments);
+}
+
+std::string output(const Team& team, int cores, const std::string& arguments) {
+  const std::string line = launch_line(team, team.workers() <= cores,
+                                       std::filesystem::read_symlink("/proc/self/exe").string(), arguments);
   std::FILE* pipe = popen(line.c_str(), "r");
   if (!pipe) throw FileError("cannot start " + line);
   std::string all;

@@ -1,6 +1,5 @@
 #pragma once
-/// Ranks and threads started together for one measurement, each worker on a core of its own where there are
-/// so many.
+/// Ranks and threads started together in processes of their own.
 
 #include <string>
 
@@ -15,8 +14,12 @@ struct Team {
 /// Empty without MPI.
 std::string mpi_launcher();
 
-/// What this program prints when a team runs it with other arguments, from "measured " on; FileError if it
-/// fails.
+/// The shell's line that starts a program as such a team; pinned: each worker on a core of its own.
+std::string launch_line(const Team& team, bool pinned, const std::string& program,
+                        const std::string& arguments);
+
+/// What this program prints when a team runs it with other arguments, from "measured " on, its workers pinned
+/// where there are so many cores; FileError if it fails.
 std::string output(const Team& team, int cores, const std::string& arguments);
 
 }  // namespace treejet

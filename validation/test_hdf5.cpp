@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/file_info.hpp"
 #include "core/trajectory_file.hpp"
+#include "core/whole_file.hpp"
 #include "validation/scratch_directory.hpp"
 
 using namespace treejet;
@@ -65,7 +66,7 @@ std::string written_at_once(const fs::path& path) {
   TrajectoryFile file(path, content, Existing::keep);
   append(file, 0, frames, nothing);
   file.finish();
-  return contents(path);
+  return read_whole(path);
 }
 
 void check_same(const Frame& a, const Frame& b) {
@@ -104,8 +105,8 @@ TEST_CASE("The bytes of a finished trajectory do not depend on how often it was 
   TrajectoryFile file(path, content, Existing::keep);
   append(file, 0, frames, [&](int k) { k % 3 == 0 ? file.sync() : file.flush(); });
   file.finish();
-  CHECK(contents(path) == expected);
-  CHECK(contents(place.path / "often" / "traj.xdmf") == contents(place.path / "once" / "traj.xdmf"));
+  CHECK(read_whole(path) == expected);
+  CHECK(read_whole(place.path / "often" / "traj.xdmf") == read_whole(place.path / "once" / "traj.xdmf"));
   CHECK(std::distance(fs::directory_iterator(place.path / "often"), {}) == 2);
 }
 
@@ -127,8 +128,8 @@ TEST_CASE("A trajectory continued from an earlier frame has the bytes of one tha
     file.continue_from(static_cast<std::uint64_t>(kept), static_cast<std::uint64_t>((kept + 1) / 2));
     append(file, kept, frames, nothing);
     file.finish();
-    CHECK(contents(path) == expected);
-    CHECK(contents(path.parent_path() / "traj.xdmf") == contents(place.path / "once" / "traj.xdmf"));
+    CHECK(read_whole(path) == expected);
+    CHECK(read_whole(path.parent_path() / "traj.xdmf") == read_whole(place.path / "once" / "traj.xdmf"));
   }
   TrajectoryFile file(place.path / "once" / "traj.h5", content, Existing::resume);
   CHECK_THROWS_WITH(file.continue_from(frames + 1, 0), Catch::Contains("traj.h5: expected 71 frames"));

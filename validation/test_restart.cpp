@@ -9,6 +9,7 @@
 #include "core/directory_lock.hpp"
 #include "core/error.hpp"
 #include "core/resumption.hpp"
+#include "core/whole_file.hpp"
 #include "forces/scene.hpp"
 #include "integrators/simulation.hpp"
 #include "validation/scratch_directory.hpp"
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* this_program = "this program";
+const std::string this_program = program({});
 
 void overwrite(const fs::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
@@ -40,7 +41,6 @@ bool march(const Deck& deck, const fs::path& directory, std::function<Wish()> wi
   Scene<D> scene = compose<D>(deck.parameters, {threads});
   Simulation<D> simulation(deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector},
                            {{directory, OutputFile::Existing::keep, true, false, {}, {}, scene.force_error()},
-                            this_program,
                             std::move(wish),
                             from});
   const bool arrived = simulation.finish();
@@ -125,7 +125,7 @@ TEST_CASE("A run stopped and resumed at any steps leaves the same bytes as one l
     while (!arrived) arrived = resume(parts.path, after(1 + stop(random)), 1 + ++stops % 3);
     CHECK(stops > 3);
     for (const char* file : {"statdat.dat", "traj.xyz", "traj.h5", "traj.xdmf"})
-      CHECK(contents(whole.path / file) == contents(parts.path / file));
+      CHECK(read_whole(whole.path / file) == read_whole(parts.path / file));
     CHECK_FALSE(fs::exists(parts.path / "checkpoint"));
   }
 }
@@ -146,7 +146,7 @@ TEST_CASE("Saving a checkpoint between all steps changes no bit and keeps the la
   }));
   CHECK(saved > 20);
   for (const char* file : {"statdat.dat", "traj.xyz", "traj.h5", "traj.xdmf"})
-    CHECK(contents(plain.path / file) == contents(saving.path / file));
+    CHECK(read_whole(plain.path / file) == read_whole(saving.path / file));
   CHECK(std::distance(fs::directory_iterator(saving.path), {}) == 5);  // these and run.json
 }
 
@@ -160,7 +160,7 @@ TEST_CASE("A checkpoint that is not sound is refused, and the older one gives th
     return steps == 10 ? Wish::save : steps == 20 ? Wish::stop : Wish::go_on;
   }));
   const fs::path newest = stopped.path / "checkpoint";
-  const std::string sound = contents(newest);
+  const std::string sound = read_whole(newest);
   std::string damaged = sound;
   damaged[damaged.size() / 2] ^= 1;
 
@@ -182,7 +182,7 @@ TEST_CASE("A checkpoint that is not sound is refused, and the older one gives th
   }
   CHECK(resume(stopped.path, never));
   for (const char* file : {"statdat.dat", "traj.xyz"})
-    CHECK(contents(whole.path / file) == contents(stopped.path / file));
+    CHECK(read_whole(whole.path / file) == read_whole(stopped.path / file));
 
   overwrite(newest, "");
   overwrite(stopped.path / "checkpoint.old", damaged);
@@ -218,7 +218,7 @@ TEST_CASE("A stopped run is neither started over nor resumed into files that are
   CHECK_THROWS_WITH(run(deck, place.path, never), Catch::Contains("--resume"));
 
   const fs::path rows = place.path / "statdat.dat";
-  const std::string all = contents(rows);
+  const std::string all = read_whole(rows);
   overwrite(rows, all.substr(0, all.size() - 1));
   CHECK_THROWS_WITH(resume(place.path, never),
                     Catch::Contains(rows.string()) && Catch::Contains("goes on after"));
@@ -226,7 +226,7 @@ TEST_CASE("A stopped run is neither started over nor resumed into files that are
   CHECK_THROWS_AS(resume(place.path, never), FileError);
   overwrite(rows, all + "1 2 3\n");  // written after the checkpoint, cut off again
   CHECK(resume(place.path, never));
-  CHECK_THAT(contents(rows), Catch::StartsWith(all) && !Catch::Contains("1 2 3\n"));
+  CHECK_THAT(read_whole(rows), Catch::StartsWith(all) && !Catch::Contains("1 2 3\n"));
 }
 
 TEST_CASE("A directory of results takes one run at a time") {
@@ -251,7 +251,7 @@ TEST_CASE("A file of results tells when it is removed or changed") {
     file.write("1\n");
     CHECK_THROWS_WITH(OutputFile(path, OutputFile::Existing::keep), Catch::Contains("--force"));
     file.write("2\n");
-    CHECK(contents(path) == "1\n2\n");
+    CHECK(read_whole(path) == "1\n2\n");
     fs::remove(path);
     CHECK_THROWS_WITH(file.write("3\n"), Catch::Contains(path.string()) && Catch::Contains("removed"));
   }
