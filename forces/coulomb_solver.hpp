@@ -12,11 +12,10 @@
 /// amplify every error 10 to 100 times. A shape is taken only if the errors of sampled leaves against direct
 /// summation, with an allowance for the spread between leaves, stay below the accuracy. A sample speaks for
 /// all because cells are made to err alike (cells.hpp): with one opening for all, a few where points crowd
-/// hold most of the error. The measurement is
-/// repeated when the number of points has changed by a twentieth, and so often that it takes 3 % of the work;
-/// if it fails, the opening is narrowed, or if that does not help the shape is chosen anew, as it is when the
-/// number of points has changed by half. If no shape is accurate enough, or none is expected to be faster,
-/// the sum is direct, and the report says so.
+/// hold most of the error. The measurement is repeated when the number of points has changed by a twentieth,
+/// and so often that it takes 3 % of the work; if it fails, the opening is narrowed, or if that does not help
+/// the shape is chosen anew, as it is when the number of points has changed by half. If no shape is accurate
+/// enough, or none is expected to be faster, the sum is direct, and the report says so.
 ///
 /// All decisions follow from the points, the count of evaluations and counted work, never from a clock: the
 /// same calls give the same bits on any number of threads and ranks.

@@ -14,8 +14,11 @@
 /// solutions says nothing about the error (Shampine; Hairer, Wanner, "Solving ODEs II", IV.8). One
 /// factorisation and as many solves of O(n) a step as there are stages, no iteration. The order holds
 /// whatever J is, so that what is not stiff may be left out of it: the Coulomb sum, surface tension, the
-/// motion of the nozzle. The last row of the implicit tableau is b, hence  next = y_n + Z_s + h sum (b_i -
-/// explicit_si) rest_i , in which the stiff part comes through the solution Z_s only.
+/// motion of the nozzle. The last row of the implicit tableau is b, hence
+///
+///     next = y_n + Z_s + h sum (b_i - explicit_si) rest_i ,
+///
+/// in which the stiff part comes through the solution Z_s only.
 
 #include <array>
 

@@ -162,7 +162,7 @@ void March<D>::start() {
   halt_if(not_finite<D>(now_.y, now_.slope, parts_.holding.before(parts_.jet)), now_.t);
   // a nozzle that circles far off the axis begins beyond the place where it lets a bead go
   if (parts_.nozzle.inserting() && overdue(true, now_.y, now_.t) > 0) {
-    while (overdue(true, parts_.jet.y, parts_.jet.t) > 0) insertion();
+    settle({now_.t, /*insertion*/ true});
     now_.y = parts_.jet.y;
     evaluate(now_);
   }

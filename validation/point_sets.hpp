@@ -64,21 +64,22 @@ inline PointSet coil(int n, double turns, double pitch) {
   });
 }
 
-/// A whipping jet: 40 turns that widen along the axis.
+/// 40 turns that widen along the axis.
+inline std::array<double, 3> whipping_curve(double s) {
+  const double radius = 5 * std::pow(s, 1.5), phi = 80 * std::numbers::pi * s;
+  return {16 * s, radius * std::cos(phi), radius * std::sin(phi)};
+}
+
 inline PointSet whipping_jet(int n) {
-  return along(n, [](double s) {
-    const double radius = 5 * std::pow(s, 1.5), phi = 80 * std::numbers::pi * s;
-    return std::array<double, 3>{16 * s, radius * std::cos(phi), radius * std::sin(phi)};
-  });
+  return along(n, whipping_curve);
 }
 
 /// The same with beads that crowd ten times on the way and are strewn between, by spacings of 1 to 100.
 inline PointSet uneven_jet(int n) {
   PointSet set;
   for (int i = 0; i < n; ++i) {
-    const double u = (i + 0.5) / n, lumps = 20 * std::numbers::pi, s = u + 0.98 / lumps * std::sin(lumps * u);
-    const double radius = 5 * std::pow(s, 1.5), phi = 80 * std::numbers::pi * s;
-    set.add({16 * s, radius * std::cos(phi), radius * std::sin(phi)}, 1.0 / n);
+    const double u = (i + 0.5) / n, lumps = 20 * std::numbers::pi;
+    set.add(whipping_curve(u + 0.98 / lumps * std::sin(lumps * u)), 1.0 / n);
   }
   return set;
 }
