@@ -52,8 +52,6 @@ void set_elements(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, d
                   std::pair<Eigen::Index, Eigen::Index> rows) {
   const auto [first, last] = rows;
   const Eigen::Index n = y.rows(), m = last - first;
-  chain.point.middleRows(first, m) = y.middleRows(first, m).template leftCols<D>();
-  chain.point_charge.segment(first, m) = jet.charge.segment(first, m);
   chain.stress.segment(first, m) = y.col(stress_column<D>).segment(first, m);
   chain.inverse_mass.segment(first, m) = jet.mass.segment(first, m).inverse();
 

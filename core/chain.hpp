@@ -47,7 +47,16 @@ void set_boundary(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, d
   chain.point_charge[points - 1] = Nozzle<D>::charge;
 }
 
-/// Fills beads and elements first <= i < last.
+/// Sets the beads first <= i < last as points.
+template <int D>
+void set_points(Chain<D>& chain, const Jet<D>& jet, const Table<D>& y,
+                std::pair<Eigen::Index, Eigen::Index> rows) {
+  const auto [first, last] = rows;
+  chain.point.middleRows(first, last - first) = y.middleRows(first, last - first).template leftCols<D>();
+  chain.point_charge.segment(first, last - first) = jet.charge.segment(first, last - first);
+}
+
+/// Sets the elements first <= i < last, with the masses of their beads.
 template <int D>
 void set_elements(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, double t, const Table<D>& y,
                   std::pair<Eigen::Index, Eigen::Index> rows);

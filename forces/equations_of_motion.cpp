@@ -29,6 +29,7 @@ void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const Table<D
 
   set_boundary<D>(chain_, jet, nozzle_, t, y);
   for_each_block(threads, {0, n}, block, [&](Rows rows) {
+    set_points<D>(chain_, jet, y, {rows.first, rows.last});
     set_elements<D>(chain_, jet, nozzle_, t, y, {rows.first, rows.last});
   });
   for (auto& term : terms_) term->prepare(chain_, threads);
@@ -45,6 +46,7 @@ void EquationsOfMotion<D>::differentiate(const Jet<D>& jet, double t, const Tabl
                                          LocalJacobian<D>& J) {
   const int n = static_cast<int>(y.rows());
   set_boundary<D>(chain_, jet, nozzle_, t, y);
+  set_points<D>(chain_, jet, y, {0, n});
   set_elements<D>(chain_, jet, nozzle_, t, y, {0, n});
   J.element.assign(static_cast<std::size_t>(n), {});
   J.inverse_mass = chain_.inverse_mass;

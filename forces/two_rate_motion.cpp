@@ -4,14 +4,15 @@
 #include <cmath>
 #include <limits>
 
-#include "core/wide_loops.hpp"
+#include "core/weighted_sum.hpp"
 
 namespace treejet {
 
 namespace {
 
 constexpr int fast_old = 8, fast_young = 24;  ///< beads at the two ends
-constexpr int near = 24;  ///< further points whose field on the fast beads is not continued
+/// Further points whose field on the fast beads is not continued; as many as a block of the direct kernel.
+constexpr int near = 16;
 
 /// A fast end of the chain, and the points near to it.
 struct End {
@@ -96,6 +97,7 @@ void TwoRateMotion<D>::operator()(const Jet<D>& jet, double t, const Table<D>& y
 
 template <int D>
 void TwoRateMotion<D>::at_node(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
+  specific_charge_ = full_.coulomb()->Q() * jet.charge / jet.mass;
   const double since = remembered_ > 0 ? t - past_[0].t : std::numeric_limits<double>::infinity();
   if (continues(y.rows()) && since < interval_) return continued(jet, t, y, slope);
   full_(jet, t, y, slope);
@@ -148,30 +150,51 @@ auto TwoRateMotion<D>::continuation(const Weights& w, Array Moment<D>::*table, R
 template <int D>
 void TwoRateMotion<D>::continued(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
   const int n = static_cast<int>(y.rows());
-  const Rows slow{fast_old, n - fast_young};
   const Weights w = weights(t);
   slope.resize(n, Eigen::NoChange);
   field_.resize(n + 2, Eigen::NoChange);
   set_boundary<D>(chain_, jet, full_.nozzle(), t, y);
 
-  slope.middleRows(slow.first, slow.size()).template leftCols<D>() =
-      y.middleRows(slow.first, slow.size()).template middleCols<D>(velocity_column<D>);
-  slope.middleRows(slow.first, slow.size()).template rightCols<D + 1>() =
-      continuation(w, &Moment<D>::slope, slow);
-  field_.middleRows(slow.first, slow.size()).setZero();
+  const Rows slow{fast_old, n - fast_young};
+  set_slow(w, slow, y, slope);
   for (const End& end : ends(n, chain_.points())) {
-    set_elements<D>(chain_, jet, full_.nozzle(), t, y, {end.window.first, std::min(end.window.last, n)});
+    set_points<D>(chain_, jet, y, {end.window.first, std::min(end.window.last, n)});
+    set_elements<D>(chain_, jet, full_.nozzle(), t, y, {std::max(end.fast.first - 1, 0), end.fast.last});
     full_.set_local(chain_, y, end.fast, slope);
     set_near_field<D>(chain_.point, chain_.point_charge, end, field_);
     field_.middleRows(end.fast.first, end.fast.size()) += continuation(w, &Moment<D>::far, end.fast);
   }
   if (jet.held) {
-    // the other beads have the held one among their near points
+    // the youngest beads have the held one among their near points
+    field_.middleRows(slow.first, slow.size()).setZero();
     const Vec<D> held = chain_.point.row(n).matrix().transpose();
     add_field_of<D>(chain_.point_charge[n], held, columns<D>(y), slow.last, columns<D>(field_));
+    accelerate({0, n}, slope);
+  } else {
+    for (const End& end : ends(n, chain_.points())) accelerate(end.fast, slope);
   }
-  specific_charge_ = full_.coulomb()->Q() * jet.charge / jet.mass;
-  for (int k = 0; k < D; ++k) slope.col(velocity_column<D> + k) += specific_charge_ * field_.col(k).head(n);
+}
+
+/// The slopes of slow beads, but for the field of a held one.
+template <int D>
+void TwoRateMotion<D>::set_slow(const Weights& w, Rows slow, const Table<D>& y, Table<D>& slope) const {
+  slope.middleRows(slow.first, slow.size()).template leftCols<D>() =
+      y.middleRows(slow.first, slow.size()).template middleCols<D>(velocity_column<D>);
+  for (int k = 0; k <= D; ++k) {
+    std::array<const double*, moments> remembered;
+    for (int m = 0; m < moments; ++m) remembered[m] = past_[m].slope.col(k).data() + slow.first;
+    weighted_sum(nullptr, w, remembered, slow.size(), slope.col(velocity_column<D> + k).data() + slow.first);
+  }
+}
+
+/// Adds what the field does to the beads of `rows`.
+template <int D>
+void TwoRateMotion<D>::accelerate(Rows rows, Table<D>& slope) const {
+  const int i = rows.first, m = rows.size();
+  for (int k = 0; k < D; ++k) {
+    slope.col(velocity_column<D> + k).segment(i, m) +=
+        specific_charge_.segment(i, m) * field_.col(k).segment(i, m);
+  }
 }
 
 /// What the continuation would have given now against what is true, in the norm of the step control.

@@ -50,7 +50,7 @@ class TwoRateMotion final : public Motion<D> {
   void before_removal(const Jet<D>& jet) override;
   void after_release(const Jet<D>& jet) override;
 
-  void visit(Archive& state) override { state(full_, past_, remembered_, interval_, full_evaluations_); }
+  void visit(Archive& state) override { state(full_, past_, remembered_, interval_, specific_charge_, full_evaluations_); }
 
   std::int64_t full_evaluations() const { return full_evaluations_; }
 
@@ -61,6 +61,8 @@ class TwoRateMotion final : public Motion<D> {
 
   bool continues(Eigen::Index beads) const;
   void continued(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope);
+  void set_slow(const Weights& w, Rows slow, const Table<D>& y, Table<D>& slope) const;
+  void accelerate(Rows rows, Table<D>& slope) const;
   Weights weights(double t) const;
   template <class Array>
   auto continuation(const Weights& w, Array Moment<D>::*table, Rows rows) const;
@@ -75,8 +77,8 @@ class TwoRateMotion final : public Motion<D> {
   int remembered_ = 0;
   double interval_ = 0;
   Chain<D> chain_;
-  Points field_;  ///< of this stage
-  Eigen::ArrayXd specific_charge_;
+  Points field_;                    ///< of this stage
+  Eigen::ArrayXd specific_charge_;  ///< Q q / m of the beads, as the last node had them
   std::int64_t full_evaluations_ = 0;
 };
 

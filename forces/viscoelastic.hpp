@@ -20,34 +20,8 @@ class Viscoelastic final : public ForceTerm<D> {
  public:
   Viscoelastic(double L_step, double F_ve) : coefficient_(L_step * F_ve) {}
   std::string_view name() const override { return "viscoelastic force"; }
-
-  void add(const Chain<D>& c, Rows rows, Acceleration<D>& a) const override {
-    const int above = rows.first,
-              below = above > 0 ? above - 1 : 0;    // first element on either side of a bead
-    const int pulled_down = rows.last - 1 - below;  // beads of `rows` that have an element below
-    const auto tension = [&](int first, int count) {
-      return coefficient_ * c.stress.segment(first, count) * c.inverse_length.segment(first, count);
-    };
-    for (int k = 0; k < D; ++k) {
-      const auto t = c.tangent.col(k);
-      a.col(k).segment(above, rows.size()) -= tension(above, rows.size()) * t.segment(above, rows.size()) *
-                                              c.inverse_mass.segment(above, rows.size());
-      a.col(k).segment(below + 1, pulled_down) += tension(below, pulled_down) *
-                                                  t.segment(below, pulled_down) *
-                                                  c.inverse_mass.segment(below + 1, pulled_down);
-    }
-  }
-
-  /// T = C sigma d / l^2:   dT/dd = C sigma / l^2 (1 - 2 t t') ,   dT/dsigma = C t / l .
-  void differentiate(const Chain<D>& c, LocalJacobian<D>& J) const override {
-    for (int i = 0; i < c.beads; ++i) {
-      const Vec<D> t = c.tangent.row(i).matrix().transpose();
-      const double stiffness = coefficient_ * c.stress[i] * c.inverse_length[i] * c.inverse_length[i];
-      J.element[i].tension_by_d +=
-          stiffness * (Eigen::Matrix<double, D, D>::Identity() - 2 * t * t.transpose());
-      J.element[i].tension_by_stress += coefficient_ * c.inverse_length[i] * t;
-    }
-  }
+  void add(const Chain<D>& c, Rows rows, Acceleration<D>& a) const override;
+  void differentiate(const Chain<D>& c, LocalJacobian<D>& J) const override;
 
  private:
   double coefficient_;
