@@ -114,7 +114,7 @@ def draw_stable_steps(rows, directory):
 def draw_scaling(rows, directory):
     """The paper's two figures: speedup and efficiency against the number of workers, one line a system size."""
     rows = [row for row in rows if row["speedup"]]
-    kinds = [kind for kind in ("ranks", "threads", "mixed") if any(row["kind"] == kind for row in rows)]
+    kinds = [kind for kind in ("ranks", "ranks with pieces", "threads", "mixed") if any(row["kind"] == kind for row in rows)]
     sizes = sorted({(int(row["beads"]), row["sum"]) for row in rows})
     colours = dict(zip(sizes, plt.get_cmap("viridis")(np.linspace(0, 0.9, len(sizes)))))
     most = max(int(row["workers"]) for row in rows)
@@ -122,17 +122,20 @@ def draw_scaling(rows, directory):
         ("speedup", "speedup.png", r"speedup $S_p = T_s / T_p$", lambda p: p),
         ("efficiency", "efficiency.png", r"efficiency $S_p / n_p$", lambda p: 1 + 0 * p),
     ):
-        figure, panels = plt.subplots(1, len(kinds), figsize=(4.4 * len(kinds), 4.6), squeeze=False, layout="constrained")
+        figure, panels = plt.subplots(1, len(kinds), figsize=(4.4 * len(kinds), 4.6), sharey=True, squeeze=False,
+                                      layout="constrained")
         for kind, panel in zip(kinds, panels[0]):
             workers = np.arange(1, most + 1)
             panel.plot(workers, ideal(workers), "k--", linewidth=1, label="ideal")
             for size in sizes:
                 points = sorted(
-                    (int(row["workers"]), number(row[column]), number(row["least [us]"]), number(row["median [us]"]), number(row["most [us]"]))
+                    (int(row["workers"]), number(row[column]), *(number(row[f"{which}speedup"]) for which in ("least ", "", "most ")))
                     for row in rows if (int(row["beads"]), row["sum"]) == size and row["kind"] in ("serial", kind)
                 )
+                if len(points) < 2:  # this size has no such workers
+                    continue
                 p, value, least, median, greatest = np.array(points).T
-                spread = np.maximum(0, [value - value * median / greatest, value * median / least - value])
+                spread = value * np.array([1 - least / median, greatest / median - 1])
                 panel.errorbar(p, value, spread, marker="o", markersize=4, linewidth=1.3, capsize=2,
                                color=colours[size], label=f"{size[0]} beads, {size[1]}")
             panel.set(xlabel="workers", title=f"workers are {kind}", xticks=workers)

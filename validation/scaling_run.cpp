@@ -6,6 +6,9 @@
 #include <sstream>
 #include <string_view>
 
+#include "forces/chain_pieces.hpp"
+#include "forces/coulomb_request.hpp"
+#include "forces/pieces_motion.hpp"
 #include "forces/scene.hpp"
 #include "integrators/choice.hpp"
 #include "validation/experiment.hpp"
@@ -30,7 +33,16 @@ Vec<3> between(const Table<3>& y, int first_column, Eigen::Index a, double part,
 void march(const Parameters& p, Scene<3>& scene, Motion<3>& motion, double until) {
   const auto scheme = stepper<3>(chosen_scheme(p));
   const auto control = step_control(p);
-  March<3>({scene.jet, motion, *scheme, *control, scene.nozzle, scene.collector, p.events, ErrorNorm(p), {}})
+  March<3>({.jet = scene.jet,
+            .motion = motion,
+            .stepper = *scheme,
+            .control = *control,
+            .nozzle = scene.nozzle,
+            .collector = scene.collector,
+            .events = p.events,
+            .norm = ErrorNorm(p),
+            .watchers = {},
+            .holding = scene.holding()})
       .to(until / scales(p).time);
 }
 
@@ -52,6 +64,21 @@ Jet<3> refined(const Jet<3>& jet, const Nozzle<3>& nozzle, int pieces) {
   return out;
 }
 
+/// Holds this jet in pieces, in place of the deck's own.
+void hold_in_pieces(Scene<3>& scene, const Jet<3>& whole, const Parameters& p, Threads threads,
+                    const Ranks& ranks) {
+  auto pieces = std::make_unique<ChainPieces>(static_cast<int>(whole.size()), ranks);
+  auto motion = std::make_unique<PiecesMotion>(*scene.motion, *pieces, threads);
+  motion->add_coulomb(groups(p).Q, coulomb_request(p, /*points_move*/ true));
+  const std::vector<int> rows = pieces->rows();
+  scene.jet.t = whole.t;
+  scene.jet.y = whole.y(rows, Eigen::all);
+  scene.jet.mass = whole.mass(rows);
+  scene.jet.charge = whole.charge(rows);
+  scene.pieces_motion = std::move(motion);
+  scene.pieces = std::move(pieces);
+}
+
 struct Over {};
 
 /// Takes the time of the evaluations after a warm-up, then breaks off.
@@ -68,7 +95,6 @@ class Stopwatch final : public Motion<3> {
     if (count_ == end_) finish();
     motion_(jet, t, y, slope);
     slope_ = &slope;
-    beads_ = static_cast<int>(y.rows());
     ++count_;
   }
   void before_removal(const Jet<3>& jet) override { motion_.before_removal(jet); }
@@ -87,7 +113,6 @@ class Stopwatch final : public Motion<3> {
     const GatherTimes times = ranks_.times();
     result.exchange = (times.exchange - times_.exchange) / n;
     result.wait = (times.wait - times_.wait) / n;
-    result.beads = beads_;
     const std::string_view bytes(reinterpret_cast<const char*>(slope_->data()),
                                  static_cast<std::size_t>(slope_->size()) * sizeof(double));
     result.bits = fmt::format("{:016x}", std::hash<std::string_view>{}(bytes));
@@ -95,7 +120,7 @@ class Stopwatch final : public Motion<3> {
   }
 
   Motion<3>& motion_;
-  int warm_up_, end_, count_ = 0, beads_ = 0;
+  int warm_up_, end_, count_ = 0;
   const Ranks& ranks_;
   double start_ = 0;
   GatherTimes times_;
@@ -125,15 +150,23 @@ Measurement measure(const ScalingRun& r, const Ranks& ranks) {
   Scene<3> grown = compose<3>(coarse, {1});
   march(coarse, grown, grown.right_hand_side(), grown_at);
 
-  const Parameters p = example("pvp", {fmt::format("points {}", r.refinement), "multirate no",
-                                       r.sum == CoulombSum::direct ? "coulomb direct" : "coulomb tree"});
-  Scene<3> scene = compose<3>(p, {r.threads}, ranks);
-  scene.jet = refined(grown.jet, grown.nozzle, r.refinement);
+  const Parameters p =
+      example("pvp", {fmt::format("points {}", r.refinement), "multirate no", "print list t",
+                      "printstat list t", r.sum == CoulombSum::direct ? "coulomb direct" : "coulomb tree",
+                      r.pieces ? "parallel distributed" : "parallel replicated"});
+  const Threads threads{r.threads};
+  Scene<3> scene = compose<3>(p, threads, ranks);
+  const Jet<3> jet = refined(grown.jet, grown.nozzle, r.refinement);
+  if (r.pieces)
+    hold_in_pieces(scene, jet, p, threads, ranks);
+  else
+    scene.jet = jet;
   Stopwatch stopwatch(scene.right_hand_side(), r, ranks);
   try {
     march(p, scene, stopwatch, 1);
   } catch (const Over&) {
   }
+  stopwatch.result.beads = static_cast<int>(scene.holding().beads(scene.jet));
   stopwatch.result.cores = cores(ranks);
   return stopwatch.result;
 }

@@ -16,6 +16,7 @@ struct ScalingRun {
   int refinement = 1;
   CoulombSum sum = CoulombSum::direct;
   int threads = 1, evaluations = 100;
+  bool pieces = false;  ///< the chain cut in one piece a rank; else replicated
 };
 
 struct Measurement {

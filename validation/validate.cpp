@@ -142,6 +142,7 @@ int main(int argc, char** argv) {
   single.add_option("--evaluations", scaling_run.evaluations, "how many to measure")
       ->check(CLI::Range(1, 1000000000));
   single.add_flag("--tree", tree, "Coulomb sum by the tree");
+  single.add_flag("--pieces", scaling_run.pieces, "the chain cut in one piece a rank");
   treejet::DistributedRun distributed_run;
   auto& pieces =
       *app.add_subcommand("distributed-run", "One measured field of a chain held in pieces, by ranks");
