@@ -6,10 +6,19 @@
 
 #include <stdexcept>
 
-#include "core/jet.hpp"
 #include "core/local_jacobian.hpp"
+#include "core/segment.hpp"
 
 namespace treejet {
+
+/// The beads that a step follows stage by stage, as a jet of their own, and where they set out from: the
+/// first rows are the `oldest` beads of the whole jet, the rest its youngest.
+template <int D>
+struct Followed {
+  Jet<D> jet;  ///< what is constant in it
+  Node<D> from;
+  Eigen::Index oldest = 0;
+};
 
 template <int D>
 class Motion {
@@ -23,6 +32,13 @@ class Motion {
   virtual void at_node(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
     (*this)(jet, t, y, slope);
   }
+
+  /// A motion that knows the way of some beads through a step from here gives the others, and sees their
+  /// tables alone until the step is completed. Null: all beads are to be followed.
+  virtual const Followed<D>* followed(const Jet<D>&, const Node<D>&) { return nullptr; }
+  /// All beads after a step of length h that has led the followed ones to `some`.
+  virtual void complete(const Jet<D>&, const Node<D>& /*from*/, double /*h*/, const Table<D>& /*some*/,
+                        Table<D>& /*next*/) {}
 
   /// The derivative of the local part of the slope, for the schemes that solve for it.
   virtual void differentiate(const Jet<D>&, double, const Table<D>&, LocalJacobian<D>&) {

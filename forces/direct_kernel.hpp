@@ -18,10 +18,9 @@
 namespace treejet {
 namespace {
 
-template <class Isa, int D, class T = double, bool potential = false>
+template <class Isa, int D, class T = double, bool potential = false, int groups = Isa::groups>
 struct DirectBlock {
-  static constexpr int lanes = Isa::lanes * static_cast<int>(sizeof(double) / sizeof(T)),
-                       groups = Isa::groups;
+  static constexpr int lanes = Isa::lanes * static_cast<int>(sizeof(double) / sizeof(T));
   static constexpr int size = lanes * groups, sums = D + (potential ? 1 : 0);
   using Pack = Wide<T, lanes>;
   Pack r[D][groups], e[sums][groups];
@@ -98,13 +97,23 @@ struct DirectBlock {
   }
 };
 
+template <class Block>
+void direct_block_of(const double* const* r, const double* q, int n, int first, Rows rows,
+                     double* const* field) {
+  Block block(r, first, n);
+  block.add_range(r, q, {0, n}, {first, n < first + Block::size ? n : first + Block::size});
+  block.store(field, first, rows);
+}
+
 template <class Isa, int D, bool potential = false>
 void direct(const double* const* r, const double* q, int n, Rows rows, double* const* field) {
   using Block = DirectBlock<Isa, D, double, potential>;
+  using OneGroup = DirectBlock<Isa, D, double, potential, 1>;
   for (int first = rows.first / Block::size * Block::size; first < rows.last; first += Block::size) {
-    Block block(r, first, n);
-    block.add_range(r, q, {0, n}, {first, n < first + Block::size ? n : first + Block::size});
-    block.store(field, first, rows);
+    if (rows.last - first <= OneGroup::size)
+      direct_block_of<OneGroup>(r, q, n, first, rows, field);
+    else
+      direct_block_of<Block>(r, q, n, first, rows, field);
   }
 }
 
@@ -123,8 +132,8 @@ void direct_mutual(const double* const* r, const double* q, int n, double* const
     const Rows own = {first, n < first + Block::size ? n : first + Block::size};
     Block block(r, first, n);
     block.add_range(r, q, own, own);
-    Pack charge[Block::groups];
-    for (int g = 0; g < Block::groups; ++g)
+    Pack charge[Isa::groups];
+    for (int g = 0; g < Isa::groups; ++g)
       charge[g] = load_first<double, lanes>(q + first + g * lanes, n - first - g * lanes);
     for (int j = own.last; j < n; ++j) block.add_mutual(r, q[j], j, charge, back[j]);
     block.store(field, first, own);

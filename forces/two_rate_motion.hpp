@@ -2,41 +2,32 @@
 /// The equations of motion at two rates: beads near the two ends of the jet are fast, the others slow.
 ///
 /// Over a few steps the field of far beads and the whole slope of slow beads change smoothly, so both are
-/// continued in time by the parabola through their last three full evaluations. At a stage of a step only the
-/// fast beads are computed:
+/// continued in time by the parabola through their last three full evaluations (moments.hpp). At a stage of a
+/// step are computed
 ///
-///     fast bead    local terms + field of the points near to its end of the chain + continued field of the
-///     rest slow bead    continued acceleration and stress rate both         field of the held bead, whose
-///     charge rises too fast to be continued
+///   - of a fast bead: its local terms and the field of the points near to its end of the chain; the
+///     continued field of the rest is added;
+///   - of a slow bead: the field of the held bead, whose charge rises too fast to be continued; its continued
+///     acceleration and stress rate are added.
+///
+/// A step follows the fast beads and those near to them. The others move, between its ends, as a parabola of
+/// the acceleration lets them, which Simpson's rule integrates exactly,
+///
+///     v(h) = v + h/6 (a_0 + 4 a_m + a_1) ,    r(h) = r + h v + h^2/6 (a_0 + 2 a_m) ,
+///
+/// a_m at the middle of the step; for what the held bead does to them the rule is of fourth order.
 ///
 /// A full evaluation is made at an accepted point of the solution once the interval since the last one is
 /// over. There the continued values meet the true ones: their difference times the interval, in the norm of
 /// the step control, is the error of the method, of fourth order in the interval, and sets the next interval.
-/// So beads that come close in space, though far along the chain, shorten the interval. At a removal and a
-/// release the remembered values are repaired as if the bead had always been absent or present; the past of a
-/// released bead is the straight way on which it left. Source: multiple time stepping; e.g. Hairer, Norsett,
-/// Wanner, "Solving ODEs I", III.1 (continuation of the slope).
-
-#include <array>
+/// So beads that come close in space, though far along the chain, shorten the interval. Source: multiple time
+/// stepping.
 
 #include "core/error_norm.hpp"
 #include "forces/equations_of_motion.hpp"
+#include "forces/moments.hpp"
 
 namespace treejet {
-
-/// A full evaluation, remembered, without what the held bead did.
-template <int D>
-struct Moment {
-  using Points = typename Chain<D>::Points;
-  double t = 0;
-  Points point;  ///< beads, nozzle
-  Eigen::ArrayXd point_charge;
-  Points field;  ///< E at the beads, of all points
-  Points far;    ///< E at the fast beads, of the points that are not near
-  Eigen::Array<double, Eigen::Dynamic, D + 1> slope;  ///< acceleration and stress rate
-
-  void visit(Archive& state) { state(t, point, point_charge, field, far, slope); }
-};
 
 template <int D>
 class TwoRateMotion final : public Motion<D> {
@@ -45,41 +36,43 @@ class TwoRateMotion final : public Motion<D> {
   /// permits.
   TwoRateMotion(EquationsOfMotion<D>& full, const ErrorNorm& norm) : full_(full), norm_(norm) {}
 
+  /// For the tables of all beads or of the followed ones.
   void operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) override;
   void at_node(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) override;
-  void before_removal(const Jet<D>& jet) override;
-  void after_release(const Jet<D>& jet) override;
+  const Followed<D>* followed(const Jet<D>& jet, const Node<D>& from) override;
+  void complete(const Jet<D>& jet, const Node<D>& from, double h, const Table<D>& some,
+                Table<D>& next) override;
+  void before_removal(const Jet<D>& jet) override { moments_.before_removal(jet, Q()); }
+  void after_release(const Jet<D>& jet) override { moments_.after_release(jet, Q()); }
 
-  void visit(Archive& state) override { state(full_, past_, remembered_, interval_, specific_charge_, full_evaluations_); }
+  void visit(Archive& state) override { state(full_, moments_, interval_, full_evaluations_); }
 
   std::int64_t full_evaluations() const { return full_evaluations_; }
 
  private:
-  static constexpr int moments = 3;
   using Points = typename Chain<D>::Points;
-  using Weights = std::array<double, moments>;
+  using Weights = typename Moments<D>::Weights;
 
-  bool continues(Eigen::Index beads) const;
+  double Q() const { return full_.coulomb()->Q(); }
+  void follow(const Jet<D>& jet, const Table<D>& y);
   void continued(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope);
-  void set_slow(const Weights& w, Rows slow, const Table<D>& y, Table<D>& slope) const;
+  void continued_ends(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope);
+  void set_near_beads(const Weights& w, const Table<D>& y, Table<D>& slope) const;
   void accelerate(Rows rows, Table<D>& slope) const;
-  Weights weights(double t) const;
-  template <class Array>
-  auto continuation(const Weights& w, Array Moment<D>::*table, Rows rows) const;
-  Moment<D> moment(const Jet<D>& jet, double t, const Table<D>& slope) const;
+  void drift(const Node<D>& from, double h, Rows middle, Table<D>& all) const;
+  void push_by_held(const Jet<D>& jet, const Node<D>& from, double h, Rows middle, Table<D>& all) const;
   double mismatch(const Jet<D>& jet, double t, const Table<D>& y, const Moment<D>& now) const;
-  void remember(Moment<D>&& now);
-  void set_far(Moment<D>& moment) const;
 
   EquationsOfMotion<D>& full_;
   ErrorNorm norm_;
-  std::array<Moment<D>, moments> past_;  ///< newest first
-  int remembered_ = 0;
+  Moments<D> moments_;
   double interval_ = 0;
-  Chain<D> chain_;
-  Points field_;                    ///< of this stage
-  Eigen::ArrayXd specific_charge_;  ///< Q q / m of the beads, as the last node had them
   std::int64_t full_evaluations_ = 0;
+
+  Followed<D> followed_;
+  Eigen::ArrayXd specific_charge_;  ///< Q q / m of the followed beads
+  Chain<D> chain_;                  ///< of these
+  Points field_;                    ///< of this stage
 };
 
 }  // namespace treejet

@@ -106,17 +106,33 @@ double March<D>::predicted_event(double horizon) const {
 
 template <int D>
 void March<D>::step(double h) {
-  parts_.stepper.step(parts_.motion, parts_.jet, now_, h, next_.y);
+  followed_ = parts_.motion.followed(parts_.jet, now_);
+  if (followed_) {
+    parts_.stepper.step(parts_.motion, followed_->jet, followed_->from, h, followed_next_);
+    parts_.motion.complete(parts_.jet, now_, h, followed_next_, next_.y);
+  } else {
+    parts_.stepper.step(parts_.motion, parts_.jet, now_, h, next_.y);
+  }
   next_.t = now_.t + h;
   effort_.evaluations += parts_.stepper.evaluations();
   ++effort_.steps;
 }
 
+/// The error of the last step in the norm of the control; 0 if the scheme does not estimate it.
+template <int D>
+double March<D>::error() const {
+  const Table<D>& e = parts_.stepper.error;
+  if (e.rows() == 0) return 0;
+  return parts_.holding.greatest(parts_.norm(e, followed_ ? followed_->from.y : now_.y));
+}
+
 template <int D>
 void March<D>::give_up() const {
+  const Table<D>& error = parts_.stepper.error;
   Eigen::Index bead = 0;
-  if (parts_.stepper.error.rows() == now_.y.rows()) {
-    parts_.stepper.error.abs().rowwise().maxCoeff().maxCoeff(&bead);
+  if (error.rows() == (followed_ ? followed_->from.y : now_.y).rows()) {
+    error.abs().rowwise().maxCoeff().maxCoeff(&bead);
+    if (followed_ && bead >= followed_->oldest) bead += now_.y.rows() - error.rows();
   }
   throw NumericalError(
       fmt::format("at scaled time {}: the step has fallen below round-off because of bead {} (number {} "
@@ -143,9 +159,7 @@ double March<D>::attempt(double end) {
     }
     if (!(now_.t + h > now_.t)) give_up();
     step(h);
-    const bool estimated = parts_.stepper.error.rows() > 0;
-    const double error = estimated ? parts_.holding.greatest(parts_.norm(parts_.stepper.error, now_.y)) : 0;
-    if (!parts_.control.accepts(now_.t, h, error)) {
+    if (!parts_.control.accepts(now_.t, h, error())) {
       ++effort_.rejected;
       continue;
     }

@@ -68,6 +68,7 @@ class March {
   void start();
   void evaluate(Node<D>& node);
   void step(double h);
+  double error() const;
   [[noreturn]] void give_up() const;
   double attempt(double end);
   std::optional<Due> located_event(double reach);
@@ -84,6 +85,8 @@ class March {
 
   Parts parts_;
   Node<D> now_, next_;
+  const Followed<D>* followed_ = nullptr;  ///< through the last step, null if all beads were
+  Table<D> followed_next_;
   std::optional<Vec<D>> youngest_jerk_,
       oldest_jerk_;  ///< third derivatives at now_, unless an event has just passed
   Table<D> one_;

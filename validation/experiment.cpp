@@ -34,6 +34,13 @@ class Limited final : public Motion<D> {
   void differentiate(const Jet<D>& jet, double t, const Table<D>& y, LocalJacobian<D>& J) override {
     motion_.differentiate(jet, t, y, J);
   }
+  const Followed<D>* followed(const Jet<D>& jet, const Node<D>& from) override {
+    return motion_.followed(jet, from);
+  }
+  void complete(const Jet<D>& jet, const Node<D>& from, double h, const Table<D>& some,
+                Table<D>& next) override {
+    motion_.complete(jet, from, h, some, next);
+  }
   void before_removal(const Jet<D>& jet) override { motion_.before_removal(jet); }
   void after_release(const Jet<D>& jet) override { motion_.after_release(jet); }
 

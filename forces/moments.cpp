@@ -1,0 +1,159 @@
+#include "forces/moments.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "forces/coulomb.hpp"
+#include "forces/field_of_charge.hpp"
+
+namespace treejet {
+
+std::array<End, 2> ends(int beads, int points) {
+  return {End{{0, fast_old}, {0, fast_old + near}},
+          End{{beads - fast_young, beads}, {beads - fast_young - near, points}}};
+}
+
+template <int D>
+void set_near_field(const typename Chain<D>::Points& point, const Eigen::ArrayXd& charge, const End& end,
+                    typename Chain<D>::Points& field) {
+  PointCharges<D> points{{}, charge.data() + end.window.first, end.window.size()};
+  FieldArrays<D> out;
+  for (int k = 0; k < D; ++k) {
+    points.r[k] = point.col(k).data() + end.window.first;
+    out[k] = field.col(k).data() + end.window.first;
+  }
+  coulomb_direct<D>(points, {end.fast.first - end.window.first, end.fast.last - end.window.first}, out);
+}
+
+namespace {
+
+/// Adds the field e of some charge at the first beads to what is remembered.
+template <int D>
+void add_field(Moment<D>& m, const typename Chain<D>::Points& e, const Jet<D>& jet, double Q) {
+  const Eigen::Index n = e.rows();
+  m.field.topRows(n) += e;
+  m.slope.topRows(n).template leftCols<D>() += e.colwise() * (Q * jet.charge.head(n) / jet.mass.head(n));
+}
+
+/// Makes room for one more row at `at`.
+template <class Array>
+void insert_row(Array& a, Eigen::Index at) {
+  const Eigen::Index n = a.rows();
+  a.conservativeResize(n + 1, Eigen::NoChange);
+  a.bottomRows(n - at) = a.middleRows(at, n - at).eval();
+}
+
+}  // namespace
+
+template <int D>
+Moment<D>::Moment(double when, const Chain<D>& c, const Jet<D>& jet, const Points& E, const Table<D>& slopes,
+                  double Q)
+    : t(when),
+      point(c.point.topRows(c.beads + 1)),
+      point_charge(c.point_charge.head(c.beads + 1)),
+      field(E.topRows(c.beads)),
+      slope(slopes.template rightCols<D + 1>()) {
+  if (!jet.held) return;
+  const int n = c.beads, nozzle = c.points() - 1;
+  const Vec<D> held = c.point.row(n).matrix().transpose();
+  add_field<D>(*this, field_of<D>(-c.point_charge[n], held, c.point, n), jet, Q);
+  point.row(n) = c.point.row(nozzle);
+  point_charge[n] = c.point_charge[nozzle];
+}
+
+template <int D>
+void Moment<D>::set_far() {
+  const auto n = static_cast<int>(field.rows());
+  far.resize(n + 1, Eigen::NoChange);
+  for (const End& end : ends(n, n + 1)) {
+    set_near_field<D>(point, point_charge, end, far);
+    const int i = end.fast.first, m = end.fast.size();
+    far.middleRows(i, m) = field.middleRows(i, m) - far.middleRows(i, m);
+  }
+}
+
+template <int D>
+bool Moments<D>::continue_to(Eigen::Index beads) const {
+  return remembered_ == count && beads >= followed_beads;
+}
+
+template <int D>
+double Moments<D>::since(double t) const {
+  return remembered_ > 0 ? t - past_[0].t : std::numeric_limits<double>::infinity();
+}
+
+template <int D>
+typename Moments<D>::Weights Moments<D>::weights(double t) const {
+  const double t0 = past_[0].t, t1 = past_[1].t, t2 = past_[2].t;
+  return {(t - t1) * (t - t2) / ((t0 - t1) * (t0 - t2)), (t - t0) * (t - t2) / ((t1 - t0) * (t1 - t2)),
+          (t - t0) * (t - t1) / ((t2 - t0) * (t2 - t1))};
+}
+
+template <int D>
+std::array<const double*, Moments<D>::count> Moments<D>::slopes(int column, int first) const {
+  std::array<const double*, count> from;
+  for (int k = 0; k < count; ++k) from[k] = past_[k].slope.col(column).data() + first;
+  return from;
+}
+
+template <int D>
+void Moments<D>::remember(Moment<D>&& now) {
+  // values too close in time would make the parabola amplify their own errors
+  const bool replaces = remembered_ >= 2 && now.t - past_[0].t < 0.2 * (past_[0].t - past_[1].t);
+  if (!replaces) {
+    std::rotate(past_.begin(), past_.end() - 1, past_.end());
+    remembered_ = std::min(remembered_ + 1, count);
+  }
+  past_[0] = std::move(now);
+  if (continue_to(past_[0].field.rows())) {
+    for (auto& m : past_) m.set_far();
+  }
+}
+
+template <int D>
+void Moments<D>::before_removal(const Jet<D>& jet, double Q) {
+  for (int k = 0; k < remembered_; ++k) {
+    Moment<D>& m = past_[k];
+    const Vec<D> oldest = m.point.row(0).matrix().transpose();
+    drop_first_row(m.point);
+    drop_first_row(m.point_charge);
+    drop_first_row(m.field);
+    drop_first_row(m.slope);
+    const Jet<D> left{jet.t, {}, jet.mass.tail(jet.size() - 1), jet.charge.tail(jet.size() - 1), false, 0};
+    add_field<D>(m, field_of<D>(-jet.charge[0], oldest, m.point, m.field.rows()), left, Q);
+    if (continue_to(jet.size() - 1)) m.set_far();
+  }
+}
+
+template <int D>
+void Moments<D>::after_release(const Jet<D>& jet, double Q) {
+  const Eigen::Index youngest = jet.size() - 1;
+  for (int k = 0; k < remembered_; ++k) {
+    Moment<D>& m = past_[k];
+    const Vec<D> p = position<D>(jet.y, youngest) + (m.t - jet.t) * velocity<D>(jet.y, youngest);
+    add_field<D>(m, field_of<D>(jet.charge[youngest], p, m.point, youngest), jet, Q);
+
+    // the field of all others at p is minus what a charge at p would do to them
+    const typename Chain<D>::Points e = field_of<D>(1, p, m.point, youngest + 1);
+    insert_row(m.field, youngest);
+    m.field.row(youngest) = -(e.colwise() * m.point_charge).colwise().sum();
+    insert_row(m.slope, youngest);
+    m.slope.row(youngest).setZero();  // a fast bead: not looked at before it has a past of its own
+    insert_row(m.point, youngest);
+    m.point.row(youngest) = p.transpose().array();
+    insert_row(m.point_charge, youngest);
+    m.point_charge[youngest] = jet.charge[youngest];
+    if (continue_to(jet.size())) m.set_far();
+  }
+}
+
+template struct Moment<1>;
+template struct Moment<3>;
+template class Moments<1>;
+template class Moments<3>;
+template void set_near_field<1>(const Chain<1>::Points&, const Eigen::ArrayXd&, const End&,
+                                Chain<1>::Points&);
+template void set_near_field<3>(const Chain<3>::Points&, const Eigen::ArrayXd&, const End&,
+                                Chain<3>::Points&);
+
+}  // namespace treejet
