@@ -33,8 +33,9 @@ class Motion {
     (*this)(jet, t, y, slope);
   }
 
-  /// A motion that knows the way of some beads through a step from here gives the others, and sees their
-  /// tables alone until the step is completed. Null: all beads are to be followed.
+  /// A motion that knows the way of some beads through a step from here gives the others, without t and y of
+  /// their jet. The stages of the step are then asked for with these beads' jet and tables only. Null: all
+  /// beads are to be followed.
   virtual const Followed<D>* followed(const Jet<D>&, const Node<D>&) { return nullptr; }
   /// All beads after a step of length h that has led the followed ones to `some`.
   virtual void complete(const Jet<D>&, const Node<D>& /*from*/, double /*h*/, const Table<D>& /*some*/,

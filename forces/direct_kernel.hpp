@@ -5,10 +5,11 @@
 ///
 /// and if wanted phi_i = sum_j q_j |d|^-1, which is then summed beside the components of E.
 ///
-/// Blocks have `Isa::lanes * Isa::groups` targets and start at multiples of that number counted from row 0,
-/// also when `rows` starts elsewhere, so the bits of a row do not depend on who asks for it. Only the block's
-/// own points can be the target itself; the pair (i, i) is masked there, by index: distinct points at one
-/// place give 0 * infinity, hence a field that is not finite. `Isa` brings q d2^(-3/2) (wide_*.cpp).
+/// Blocks have `Isa::lanes * Isa::groups` targets, those of which no more than `Isa::lanes` are wanted one
+/// group, and start at multiples of that number counted from row 0, also when `rows` starts elsewhere, so the
+/// bits of a row do not depend on who asks for it. Only the block's own points can be the target itself; the
+/// pair (i, i) is masked there, by index: distinct points at one place give 0 * infinity, hence a field that
+/// is not finite. `Isa` brings q d2^(-3/2) (wide_*.cpp).
 
 #include "forces/expansions.hpp"
 #include "forces/few_points.hpp"

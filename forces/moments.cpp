@@ -8,13 +8,13 @@
 
 namespace treejet {
 
-std::array<End, 2> ends(int beads, int points) {
-  return {End{{0, fast_old}, {0, fast_old + near}},
-          End{{beads - fast_young, beads}, {beads - fast_young - near, points}}};
+std::array<FastEnd, 2> fast_ends(int beads, int points) {
+  return {FastEnd{{0, fast_old}, {0, fast_old + near_points}},
+          FastEnd{{beads - fast_young, beads}, {beads - fast_young - near_points, points}}};
 }
 
 template <int D>
-void set_near_field(const typename Chain<D>::Points& point, const Eigen::ArrayXd& charge, const End& end,
+void set_near_field(const typename Chain<D>::Points& point, const Eigen::ArrayXd& charge, const FastEnd& end,
                     typename Chain<D>::Points& field) {
   PointCharges<D> points{{}, charge.data() + end.window.first, end.window.size()};
   FieldArrays<D> out;
@@ -65,7 +65,7 @@ template <int D>
 void Moment<D>::set_far() {
   const auto n = static_cast<int>(field.rows());
   far.resize(n + 1, Eigen::NoChange);
-  for (const End& end : ends(n, n + 1)) {
+  for (const FastEnd& end : fast_ends(n, n + 1)) {
     set_near_field<D>(point, point_charge, end, far);
     const int i = end.fast.first, m = end.fast.size();
     far.middleRows(i, m) = field.middleRows(i, m) - far.middleRows(i, m);
@@ -73,7 +73,7 @@ void Moment<D>::set_far() {
 }
 
 template <int D>
-bool Moments<D>::continue_to(Eigen::Index beads) const {
+bool Moments<D>::continuable(Eigen::Index beads) const {
   return remembered_ == count && beads >= followed_beads;
 }
 
@@ -99,13 +99,14 @@ std::array<const double*, Moments<D>::count> Moments<D>::slopes(int column, int 
 template <int D>
 void Moments<D>::remember(Moment<D>&& now) {
   // values too close in time would make the parabola amplify their own errors
-  const bool replaces = remembered_ >= 2 && now.t - past_[0].t < 0.2 * (past_[0].t - past_[1].t);
+  const double usual = remembered_ >= 2 ? past_[0].t - past_[1].t : 0;
+  const bool replaces = remembered_ > 0 && now.t - past_[0].t <= 0.2 * usual;
   if (!replaces) {
     std::rotate(past_.begin(), past_.end() - 1, past_.end());
     remembered_ = std::min(remembered_ + 1, count);
   }
   past_[0] = std::move(now);
-  if (continue_to(past_[0].field.rows())) {
+  if (continuable(past_[0].field.rows())) {
     for (auto& m : past_) m.set_far();
   }
 }
@@ -121,7 +122,7 @@ void Moments<D>::before_removal(const Jet<D>& jet, double Q) {
     drop_first_row(m.slope);
     const Jet<D> left{jet.t, {}, jet.mass.tail(jet.size() - 1), jet.charge.tail(jet.size() - 1), false, 0};
     add_field<D>(m, field_of<D>(-jet.charge[0], oldest, m.point, m.field.rows()), left, Q);
-    if (continue_to(jet.size() - 1)) m.set_far();
+    if (continuable(jet.size() - 1)) m.set_far();
   }
 }
 
@@ -143,7 +144,7 @@ void Moments<D>::after_release(const Jet<D>& jet, double Q) {
     m.point.row(youngest) = p.transpose().array();
     insert_row(m.point_charge, youngest);
     m.point_charge[youngest] = jet.charge[youngest];
-    if (continue_to(jet.size())) m.set_far();
+    if (continuable(jet.size())) m.set_far();
   }
 }
 
@@ -151,9 +152,9 @@ template struct Moment<1>;
 template struct Moment<3>;
 template class Moments<1>;
 template class Moments<3>;
-template void set_near_field<1>(const Chain<1>::Points&, const Eigen::ArrayXd&, const End&,
+template void set_near_field<1>(const Chain<1>::Points&, const Eigen::ArrayXd&, const FastEnd&,
                                 Chain<1>::Points&);
-template void set_near_field<3>(const Chain<3>::Points&, const Eigen::ArrayXd&, const End&,
+template void set_near_field<3>(const Chain<3>::Points&, const Eigen::ArrayXd&, const FastEnd&,
                                 Chain<3>::Points&);
 
 }  // namespace treejet

@@ -14,17 +14,17 @@
 
 namespace treejet {
 
-/// Beads at the two ends of the jet that are fast, and further points next to them whose field on these is
-/// not continued: as many as a block of the direct kernel has.
-constexpr int fast_old = 8, fast_young = 24, near = 16;
+/// Fast beads at the two ends of the jet, and how many points next to them act on them by a field that is not
+/// continued. With AVX-512 the latter fill a block of the direct kernel.
+constexpr int fast_old = 8, fast_young = 24, near_points = 16;
 /// Both ends with what is near to them: beads that a step at two rates follows, and those of the old end.
-constexpr int followed_old = fast_old + near, followed_beads = followed_old + near + fast_young;
+constexpr int followed_old = fast_old + near_points, followed_beads = followed_old + near_points + fast_young;
 
 /// A fast end of a chain, and the points near to it.
-struct End {
+struct FastEnd {
   Rows fast, window;
 };
-std::array<End, 2> ends(int beads, int points);
+std::array<FastEnd, 2> fast_ends(int beads, int points);
 
 /// A full evaluation, remembered.
 template <int D>
@@ -50,7 +50,7 @@ struct Moment {
 
 /// Field at the fast beads of an end, of the points near to it.
 template <int D>
-void set_near_field(const typename Chain<D>::Points& point, const Eigen::ArrayXd& charge, const End& end,
+void set_near_field(const typename Chain<D>::Points& point, const Eigen::ArrayXd& charge, const FastEnd& end,
                     typename Chain<D>::Points& field);
 
 template <int D>
@@ -59,8 +59,9 @@ class Moments {
   static constexpr int count = 3;
   using Weights = std::array<double, count>;
 
-  /// The parabola needs three moments, and pays only for more beads than the ends and what is near to them.
-  bool continue_to(Eigen::Index beads) const;
+  /// Whether the parabola, which needs three moments, may be used: it pays only where there are as many beads
+  /// as a step follows.
+  bool continuable(Eigen::Index beads) const;
 
   /// Beads that are remembered.
   int beads() const { return static_cast<int>(past_[0].slope.rows()); }

@@ -139,18 +139,18 @@ std::vector<int> whole_jet(const Parameters& p) {
   return beads;
 }
 
-/// Puts the motion of a jet in pieces on top of the local terms.
-void hold_in_pieces(Scene<3>& scene, const Parameters& p, Threads threads, const Ranks& ranks) {
-  auto pieces = std::make_unique<ChainPieces>(initial_elements(p), ranks);
+}  // namespace
+
+void hold_in_pieces(Scene<3>& scene, const Parameters& p, int beads, const JetOfRows& jet_of, Threads threads,
+                    const Ranks& ranks) {
+  auto pieces = std::make_unique<ChainPieces>(beads, ranks);
   auto motion = std::make_unique<PiecesMotion>(*scene.motion, *pieces, threads);
   if (groups(p).Q != 0) motion->add_coulomb(groups(p).Q, coulomb_request(p, /*points_move*/ true));
-  scene.jet = initial_jet<3>(p, pieces->rows());
+  scene.jet = jet_of(pieces->rows());
   scene.pieces_error = motion->error();
   scene.pieces_motion = std::move(motion);
   scene.pieces = std::move(pieces);
 }
-
-}  // namespace
 
 template <int D>
 Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks) {
@@ -165,7 +165,10 @@ Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks) {
   scene.motion = std::make_unique<EquationsOfMotion<D>>(nozzle, std::move(law), std::move(terms), threads);
   if (composer.two_rates()) scene.two_rates = std::make_unique<TwoRateMotion<D>>(*scene.motion, ErrorNorm(p));
   if constexpr (D == 3)
-    if (composer.in_pieces()) hold_in_pieces(scene, p, threads, ranks);
+    if (composer.in_pieces()) {
+      const auto jet_of = [&](const std::vector<int>& rows) { return initial_jet<3>(p, rows); };
+      hold_in_pieces(scene, p, initial_elements(p), jet_of, threads, ranks);
+    }
   scene.composed = std::move(composer.composed);
   scene.left_out = std::move(composer.left_out);
   return scene;

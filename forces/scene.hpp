@@ -2,6 +2,7 @@
 /// A scene: what a deck's parameters compose, ready to move. Only the terms that the deck names are in it;
 /// for each one left out, `left_out` tells why.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,12 @@ struct Scene {
 
   Holding<D>& holding() { return pieces ? *pieces : held_whole<D>; }
 };
+
+/// Puts the motion of a jet of so many beads in pieces on top of the local terms; `jet_of` gives the beads of
+/// a piece by number.
+using JetOfRows = std::function<Jet<3>(const std::vector<int>&)>;
+void hold_in_pieces(Scene<3>& scene, const Parameters& parameters, int beads, const JetOfRows& jet_of,
+                    Threads threads, const Ranks& ranks);
 
 template <int D>
 Scene<D> compose(const Parameters& parameters, Threads threads, const Ranks& ranks = {});

@@ -32,20 +32,20 @@ Rows middle_of(Eigen::Index n) {
 
 template <int D>
 void TwoRateMotion<D>::operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
-  if (!moments_.continue_to(y.rows())) {
+  if (!moments_.continuable(y.rows())) {
     full_(jet, t, y, slope);
     ++full_evaluations_;
-  } else if (y.rows() < moments_.beads()) {
-    continued_ends(jet, t, y, slope);
-  } else {
+  } else if (y.rows() == moments_.beads()) {
     continued(jet, t, y, slope);
+  } else {
+    continued_ends(jet, t, y, slope);
   }
 }
 
 template <int D>
 void TwoRateMotion<D>::at_node(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
   const double since = moments_.since(t);
-  const bool continues = moments_.continue_to(y.rows());
+  const bool continues = moments_.continuable(y.rows());
   if (continues && since < interval_) return continued(jet, t, y, slope);
   full_(jet, t, y, slope);
   ++full_evaluations_;
@@ -63,7 +63,7 @@ void TwoRateMotion<D>::at_node(const Jet<D>& jet, double t, const Table<D>& y, T
 
 template <int D>
 const Followed<D>* TwoRateMotion<D>::followed(const Jet<D>& jet, const Node<D>& from) {
-  if (!moments_.continue_to(from.y.rows()) || from.y.rows() == followed_beads) return nullptr;
+  if (!moments_.continuable(from.y.rows()) || from.y.rows() == followed_beads) return nullptr;
   follow(jet, from.y);
   followed_.from.t = from.t;
   followed_.oldest = followed_old;
@@ -114,7 +114,7 @@ void TwoRateMotion<D>::continued_ends(const Jet<D>& jet, double t, const Table<D
   set_boundary<D>(chain_, jet, full_.nozzle(), t, y);
   set_points<D>(chain_, jet, y, {0, n});
   set_near_beads(w, y, slope);
-  for (const End& end : ends(n, chain_.points())) {
+  for (const FastEnd& end : fast_ends(n, chain_.points())) {
     const int i = end.fast.first, left_out = i == 0 ? 0 : middle;
     set_elements<D>(chain_, jet, full_.nozzle(), t, y, {std::max(i - 1, 0), end.fast.last});
     full_.set_local(chain_, y, end.fast, slope);
@@ -144,8 +144,8 @@ void TwoRateMotion<D>::set_near_beads(const Weights& w, const Table<D>& y, Table
       y.middleRows(slow.first, slow.size()).template middleCols<D>(velocity_column<D>);
   for (int k = 0; k <= D; ++k) {
     double* const to = slope.col(velocity_column<D> + k).data();
-    weighted_sum(nullptr, w, moments_.slopes(k, slow.first), near, to + slow.first);
-    weighted_sum(nullptr, w, moments_.slopes(k, followed_old + middle), near, to + followed_old);
+    weighted_sum(nullptr, w, moments_.slopes(k, slow.first), near_points, to + slow.first);
+    weighted_sum(nullptr, w, moments_.slopes(k, followed_old + middle), near_points, to + followed_old);
   }
 }
 
@@ -199,21 +199,21 @@ void TwoRateMotion<D>::push_by_held(const Jet<D>& jet, const Node<D>& from, doub
   const Eigen::Index i = middle.first, m = middle.size(), youngest = from.y.rows() - 1;
   const Nozzle<D>& nozzle = full_.nozzle();
   Points velocity = Points::Zero(m, D), way = Points::Zero(m, D);
-  const auto push = [&](const Vec<D>& r, double t, const Points& point, double once, double twice) {
+  const auto push = [&](double t, const Points& point, double once, double twice) {
+    const Vec<D> r = point.row(youngest).matrix().transpose(), held = nozzle.held_position(r, t);
     const double q = nozzle.faded_charge(r, t);
-    const Vec<D> held = nozzle.held_position(r, t);
-    add_field_of<D>(q * once, held, columns<D>(point), m, columns<D>(velocity));
-    add_field_of<D>(q * twice, held, columns<D>(point), m, columns<D>(way));
+    auto beads = columns<D>(point);
+    for (auto& column : beads) column += i;
+    add_field_of<D>(q * once, held, beads, m, columns<D>(velocity));
+    add_field_of<D>(q * twice, held, beads, m, columns<D>(way));
   };
-  const Vec<D> r = position<D>(from.y, youngest), r_end = position<D>(all, youngest);
-  const Vec<D> r_half =
-      (r + r_end) / 2 +
-      h / 8 * (treejet::velocity<D>(from.y, youngest) - treejet::velocity<D>(all, youngest));
-  const Points begin = from.y.middleRows(i, m).template leftCols<D>(),
-               end = all.middleRows(i, m).template leftCols<D>();
-  push(r, from.t, begin, h / 6, h * h / 6);
-  push(r_half, from.t + h / 2, (begin + end) / 2, 4 * h / 6, 2 * h * h / 6);
-  push(r_end, from.t + h, end, h / 6, 0);
+  const Points begin = from.y.template leftCols<D>(), end = all.template leftCols<D>();
+  const Points half = (begin + end) / 2 + h / 8 *
+                                              (from.y.template middleCols<D>(velocity_column<D>) -
+                                               all.template middleCols<D>(velocity_column<D>));
+  push(from.t, begin, h / 6, h * h / 6);
+  push(from.t + h / 2, half, 4 * h / 6, 2 * h * h / 6);
+  push(from.t + h, end, h / 6, 0);
 
   const Eigen::ArrayXd specific_charge = Q() * jet.charge.segment(i, m) / jet.mass.segment(i, m);
   all.middleRows(i, m).template middleCols<D>(velocity_column<D>) += velocity.colwise() * specific_charge;
@@ -229,7 +229,7 @@ double TwoRateMotion<D>::mismatch(const Jet<D>& jet, double t, const Table<D>& y
   Table<D> error(n, 2 * D + 1);
   error.template leftCols<D>().setZero();
   error.template rightCols<D + 1>() = moments_.continuation(w, &Moment<D>::slope, {0, n}) - now.slope;
-  for (const End& end : ends(n, n + 1)) {
+  for (const FastEnd& end : fast_ends(n, n + 1)) {
     const int i = end.fast.first, m = end.fast.size();
     const Points far = moments_.continuation(w, &Moment<D>::far, end.fast) - now.far.middleRows(i, m);
     error.middleRows(i, m).template middleCols<D>(velocity_column<D>) =

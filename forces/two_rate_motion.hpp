@@ -2,8 +2,7 @@
 /// The equations of motion at two rates: beads near the two ends of the jet are fast, the others slow.
 ///
 /// Over a few steps the field of far beads and the whole slope of slow beads change smoothly, so both are
-/// continued in time by the parabola through their last three full evaluations (moments.hpp). At a stage of a
-/// step are computed
+/// continued in time by the parabola through their last three full evaluations (moments.hpp). Computed are
 ///
 ///   - of a fast bead: its local terms and the field of the points near to its end of the chain; the
 ///     continued field of the rest is added;
@@ -15,7 +14,8 @@
 ///
 ///     v(h) = v + h/6 (a_0 + 4 a_m + a_1) ,    r(h) = r + h v + h^2/6 (a_0 + 2 a_m) ,
 ///
-/// a_m at the middle of the step; for what the held bead does to them the rule is of fourth order.
+/// a_m at the middle of the step; for what the held bead does to them, the square of which is left out, the
+/// rule is of fourth order.
 ///
 /// A full evaluation is made at an accepted point of the solution once the interval since the last one is
 /// over. There the continued values meet the true ones: their difference times the interval, in the norm of
@@ -36,7 +36,7 @@ class TwoRateMotion final : public Motion<D> {
   /// permits.
   TwoRateMotion(EquationsOfMotion<D>& full, const ErrorNorm& norm) : full_(full), norm_(norm) {}
 
-  /// For the tables of all beads or of the followed ones.
+  /// For the tables of all beads, or of those that `followed` gave.
   void operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) override;
   void at_node(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) override;
   const Followed<D>* followed(const Jet<D>& jet, const Node<D>& from) override;

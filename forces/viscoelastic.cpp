@@ -1,5 +1,7 @@
 #include "forces/viscoelastic.hpp"
 
+#include <algorithm>
+
 #include "core/wide_loops.hpp"
 
 namespace treejet {

@@ -130,7 +130,8 @@ template <int D>
 void March<D>::give_up() const {
   const Table<D>& error = parts_.stepper.error;
   Eigen::Index bead = 0;
-  if (error.rows() == (followed_ ? followed_->from.y : now_.y).rows()) {
+  const bool of_these = next_.y.rows() == now_.y.rows();  // no event has changed their number since
+  if (error.rows() > 0 && of_these) {
     error.abs().rowwise().maxCoeff().maxCoeff(&bead);
     if (followed_ && bead >= followed_->oldest) bead += now_.y.rows() - error.rows();
   }

@@ -6,9 +6,6 @@
 #include <sstream>
 #include <string_view>
 
-#include "forces/chain_pieces.hpp"
-#include "forces/coulomb_request.hpp"
-#include "forces/pieces_motion.hpp"
 #include "forces/scene.hpp"
 #include "integrators/choice.hpp"
 #include "validation/experiment.hpp"
@@ -64,19 +61,10 @@ Jet<3> refined(const Jet<3>& jet, const Nozzle<3>& nozzle, int pieces) {
   return out;
 }
 
-/// Holds this jet in pieces, in place of the deck's own.
-void hold_in_pieces(Scene<3>& scene, const Jet<3>& whole, const Parameters& p, Threads threads,
-                    const Ranks& ranks) {
-  auto pieces = std::make_unique<ChainPieces>(static_cast<int>(whole.size()), ranks);
-  auto motion = std::make_unique<PiecesMotion>(*scene.motion, *pieces, threads);
-  motion->add_coulomb(groups(p).Q, coulomb_request(p, /*points_move*/ true));
-  const std::vector<int> rows = pieces->rows();
-  scene.jet.t = whole.t;
-  scene.jet.y = whole.y(rows, Eigen::all);
-  scene.jet.mass = whole.mass(rows);
-  scene.jet.charge = whole.charge(rows);
-  scene.pieces_motion = std::move(motion);
-  scene.pieces = std::move(pieces);
+/// Some beads of a jet, by number.
+Jet<3> part(const Jet<3>& whole, const std::vector<int>& rows) {
+  return {whole.t,      whole.y(rows, Eigen::all), whole.mass(rows), whole.charge(rows), whole.held,
+          whole.removed};
 }
 
 struct Over {};
@@ -158,7 +146,9 @@ Measurement measure(const ScalingRun& r, const Ranks& ranks) {
   Scene<3> scene = compose<3>(p, threads, ranks);
   const Jet<3> jet = refined(grown.jet, grown.nozzle, r.refinement);
   if (r.pieces)
-    hold_in_pieces(scene, jet, p, threads, ranks);
+    hold_in_pieces(
+        scene, p, static_cast<int>(jet.size()), [&](const std::vector<int>& rows) { return part(jet, rows); },
+        threads, ranks);
   else
     scene.jet = jet;
   Stopwatch stopwatch(scene.right_hand_side(), r, ranks);

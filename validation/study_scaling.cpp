@@ -86,15 +86,43 @@ std::vector<Sample> samples(const std::vector<Way>& ways, const Size& size, int 
   return all;
 }
 
-/// The serial program first. Pieces go with the tree only.
-std::vector<Way> ways(int most, bool tree) {
+/// The serial program first, and more workers than cores, whose bits can be compared. Pieces, whose bits
+/// depend on their number, go with the tree only.
+std::vector<Way> ways(int cores, bool tree) {
   std::vector<Way> all = {{{1, 1}}};
-  for (int p = 2; p <= most; p *= 2) {
+  for (int p = 2; p <= 2 * cores; p *= 2) {
     for (int threads = 1; threads <= p; threads *= 2)
       if (threads == p || !mpi_launcher().empty()) all.push_back({{p / threads, threads}});
-    if (tree && !mpi_launcher().empty()) all.push_back({{p, 1}, /*pieces*/ true});
+    if (tree && p <= cores && !mpi_launcher().empty()) all.push_back({{p, 1}, /*pieces*/ true});
   }
   return all;
+}
+
+/// A row of the table; without times if there are not so many cores.
+std::vector<Cell> row(const Size& size, const Way& way, const Sample& sample, const Spread& speedup,
+                      bool timed) {
+  const Team& team = way.team;
+  const Measurement m = sample.median();
+  const Spread time(sample.seconds());
+  const auto shown = [&](double value) { return Cell(timed ? value : std::nan("")); };
+  const auto us = [&](double seconds) { return shown(1e6 * seconds); };
+  return {std::int64_t{m.beads},
+          std::string(size.tree ? "tree" : "direct"),
+          std::int64_t{team.workers()},
+          timed ? way.name() : way.name() + ", correctness only",
+          std::int64_t{team.ranks},
+          std::int64_t{team.threads},
+          us(m.seconds),
+          us(time.least),
+          us(time.most),
+          shown(speedup.median),
+          shown(speedup.least),
+          shown(speedup.most),
+          shown(speedup.median / team.workers()),
+          us(m.seconds - m.exchange - m.wait),
+          us(m.exchange),
+          us(m.wait),
+          m.cores};
 }
 
 /// The smallest share of beads from which on every larger one has an efficiency above 0.8.
@@ -149,26 +177,18 @@ void study_scaling(Report& report) {
   int done = 0, different = 0;
   for (const Size& size : sizes) {
     report.progress("scaling", done++, static_cast<int>(sizes.size()));
-    const std::vector<Way> all_ways = ways(2 * cores, size.tree);
+    const std::vector<Way> all_ways = ways(cores, size.tree);
     const std::vector<Sample> times = samples(all_ways, size, cores, repeats);
     for (std::size_t k = 0; k < all_ways.size(); ++k) {
       const Way& way = all_ways[k];
-      const Team& team = way.team;
+      const bool timed = way.team.workers() <= cores;
       const Measurement m = times[k].median();
+      const Spread speedup(speedups(times[0], times[k]));
+      table.row(row(size, way, times[k], speedup, timed));
       different += !way.pieces && m.bits != times[0].median().bits;
-      const bool timed = team.workers() <= cores;
-      const auto us = [&](double seconds) { return timed ? Cell(1e6 * seconds) : Cell(std::nan("")); };
-      const auto ratio = [&](double r) { return timed ? Cell(r) : Cell(std::nan("")); };
-      const Spread time(times[k].seconds()), speedup(speedups(times[0], times[k]));
-      const double efficiency = speedup.median / team.workers();
-      table.row({std::int64_t{m.beads}, std::string(size.tree ? "tree" : "direct"),
-                 std::int64_t{team.workers()}, timed ? way.name() : way.name() + ", correctness only",
-                 std::int64_t{team.ranks}, std::int64_t{team.threads}, us(m.seconds), us(time.least),
-                 us(time.most), ratio(speedup.median), ratio(speedup.least), ratio(speedup.most),
-                 ratio(efficiency), us(m.seconds - m.exchange - m.wait), us(m.exchange), us(m.wait),
-                 m.cores});
-      if (timed && !team.serial())
-        (size.tree ? tree : direct).add(way.name(), double(m.beads) / team.workers(), efficiency);
+      if (timed && !way.team.serial())
+        (size.tree ? tree : direct)
+            .add(way.name(), double(m.beads) / way.team.workers(), speedup.median / way.team.workers());
     }
   }
   fmt::print("\ndirect sum\n");
