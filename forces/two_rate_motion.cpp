@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/weighted_sum.hpp"
 #include "forces/field_of_charge.hpp"
@@ -199,21 +200,20 @@ void TwoRateMotion<D>::push_by_held(const Jet<D>& jet, const Node<D>& from, doub
   const Eigen::Index i = middle.first, m = middle.size(), youngest = from.y.rows() - 1;
   const Nozzle<D>& nozzle = full_.nozzle();
   Points velocity = Points::Zero(m, D), way = Points::Zero(m, D);
-  const auto push = [&](double t, const Points& point, double once, double twice) {
-    const Vec<D> r = point.row(youngest).matrix().transpose(), held = nozzle.held_position(r, t);
+  const auto push = [&](double t, std::array<const double*, D> point, double once, double twice) {
+    Vec<D> r;
+    for (int k = 0; k < D; ++k) r[k] = point[k][youngest], point[k] += i;
+    const Vec<D> held = nozzle.held_position(r, t);
     const double q = nozzle.faded_charge(r, t);
-    auto beads = columns<D>(point);
-    for (auto& column : beads) column += i;
-    add_field_of<D>(q * once, held, beads, m, columns<D>(velocity));
-    add_field_of<D>(q * twice, held, beads, m, columns<D>(way));
+    add_field_of<D>(q * once, held, point, m, columns<D>(velocity));
+    if (twice > 0) add_field_of<D>(q * twice, held, point, m, columns<D>(way));
   };
-  const Points begin = from.y.template leftCols<D>(), end = all.template leftCols<D>();
-  const Points half = (begin + end) / 2 + h / 8 *
-                                              (from.y.template middleCols<D>(velocity_column<D>) -
-                                               all.template middleCols<D>(velocity_column<D>));
-  push(from.t, begin, h / 6, h * h / 6);
-  push(from.t + h / 2, half, 4 * h / 6, 2 * h * h / 6);
-  push(from.t + h, end, h / 6, 0);
+  const auto change =
+      from.y.template middleCols<D>(velocity_column<D>) - all.template middleCols<D>(velocity_column<D>);
+  const Points half = (from.y.template leftCols<D>() + all.template leftCols<D>()) / 2 + h / 8 * change;
+  push(from.t, columns<D>(from.y), h / 6, h * h / 6);
+  push(from.t + h / 2, columns<D>(half), 4 * h / 6, 2 * h * h / 6);
+  push(from.t + h, columns<D>(std::as_const(all)), h / 6, 0);
 
   const Eigen::ArrayXd specific_charge = Q() * jet.charge.segment(i, m) / jet.mass.segment(i, m);
   all.middleRows(i, m).template middleCols<D>(velocity_column<D>) += velocity.colwise() * specific_charge;
