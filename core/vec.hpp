@@ -14,17 +14,17 @@ using Vec = Eigen::Matrix<double, D, 1>;
 template <int D>
 using Table = Eigen::Array<double, Eigen::Dynamic, 2 * D + 1>;
 
-/// `count` columns of a table or of points from column `first` on, for loops over beads.
+/// `count` columns of a table or of points from column `first` on, each from a row on, for loops over beads.
 template <int count, class Array>
-std::array<const double*, count> columns(const Array& table, Eigen::Index first = 0) {
+std::array<const double*, count> columns(const Array& table, Eigen::Index first = 0, Eigen::Index row = 0) {
   std::array<const double*, count> c;
-  for (int k = 0; k < count; ++k) c[k] = table.col(first + k).data();
+  for (int k = 0; k < count; ++k) c[k] = table.col(first + k).data() + row;
   return c;
 }
 template <int count, class Array>
-std::array<double*, count> columns(Array& table, Eigen::Index first = 0) {
+std::array<double*, count> columns(Array& table, Eigen::Index first = 0, Eigen::Index row = 0) {
   std::array<double*, count> c;
-  for (int k = 0; k < count; ++k) c[k] = table.col(first + k).data();
+  for (int k = 0; k < count; ++k) c[k] = table.col(first + k).data() + row;
   return c;
 }
 

@@ -34,7 +34,7 @@ class CoulombForce final : public ForceTerm<D> {
   void prepare(const Chain<D>& c, Threads threads) override {
     field_.resize(c.points(), Eigen::NoChange);
     const Rows beads = {0, c.beads};
-    const FieldArrays<D> field = field_arrays();
+    const FieldArrays<D> field = columns<D>(field_);
     if constexpr (D == 3) {
       if (solver_) {
         solver_->field(charges(c), beads, field, threads);
@@ -68,15 +68,7 @@ class CoulombForce final : public ForceTerm<D> {
 
  private:
   static PointCharges<D> charges(const Chain<D>& c) {
-    PointCharges<D> points{{}, c.point_charge.data(), c.points()};
-    for (int k = 0; k < D; ++k) points.r[k] = c.point.col(k).data();
-    return points;
-  }
-
-  FieldArrays<D> field_arrays() {
-    FieldArrays<D> field;
-    for (int k = 0; k < D; ++k) field[k] = field_.col(k).data();
-    return field;
+    return {columns<D>(c.point), c.point_charge.data(), c.points()};
   }
 
   void sum_directly(const Chain<D>& c, Rows rows, const FieldArrays<D>& field) const {

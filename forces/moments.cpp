@@ -16,13 +16,9 @@ std::array<FastEnd, 2> fast_ends(int beads, int points) {
 template <int D>
 void set_near_field(const typename Chain<D>::Points& point, const Eigen::ArrayXd& charge, const FastEnd& end,
                     typename Chain<D>::Points& field) {
-  PointCharges<D> points{{}, charge.data() + end.window.first, end.window.size()};
-  FieldArrays<D> out;
-  for (int k = 0; k < D; ++k) {
-    points.r[k] = point.col(k).data() + end.window.first;
-    out[k] = field.col(k).data() + end.window.first;
-  }
-  coulomb_direct<D>(points, {end.fast.first - end.window.first, end.fast.last - end.window.first}, out);
+  const int first = end.window.first;
+  coulomb_direct<D>({columns<D>(point, 0, first), charge.data() + first, end.window.size()},
+                    {end.fast.first - first, end.fast.last - first}, columns<D>(field, 0, first));
 }
 
 namespace {
@@ -98,6 +94,7 @@ std::array<const double*, Moments<D>::count> Moments<D>::slopes(int column, int 
 
 template <int D>
 void Moments<D>::remember(Moment<D>&& now) {
+  const bool continued = continuable(now.field.rows());  // then all have their far field, `now` as well
   // values too close in time would make the parabola amplify their own errors
   const double usual = remembered_ >= 2 ? past_[0].t - past_[1].t : 0;
   const bool replaces = remembered_ > 0 && now.t - past_[0].t <= 0.2 * usual;
@@ -106,7 +103,7 @@ void Moments<D>::remember(Moment<D>&& now) {
     remembered_ = std::min(remembered_ + 1, count);
   }
   past_[0] = std::move(now);
-  if (continuable(past_[0].field.rows())) {
+  if (!continued && continuable(beads())) {
     for (auto& m : past_) m.set_far();
   }
 }

@@ -67,7 +67,6 @@ const Followed<D>* TwoRateMotion<D>::followed(const Jet<D>& jet, const Node<D>& 
   if (!moments_.continuable(from.y.rows()) || from.y.rows() == followed_beads) return nullptr;
   follow(jet, from.y);
   followed_.from.t = from.t;
-  followed_.oldest = followed_old;
   take_followed(from.slope, followed_.from.slope);
   return &followed_;
 }
@@ -78,7 +77,14 @@ void TwoRateMotion<D>::follow(const Jet<D>& jet, const Table<D>& y) {
   take_followed(jet.charge, followed_.jet.charge);
   take_followed(y, followed_.from.y);
   followed_.jet.held = jet.held;
-  specific_charge_ = Q() * followed_.jet.charge / followed_.jet.mass;
+  specific_charge_ = specific_charge(followed_.jet, {0, followed_beads});
+}
+
+/// Q q / m of some beads.
+template <int D>
+Eigen::ArrayXd TwoRateMotion<D>::specific_charge(const Jet<D>& jet, Rows rows) const {
+  const int i = rows.first, m = rows.size();
+  return Q() * jet.charge.segment(i, m) / jet.mass.segment(i, m);
 }
 
 /// The slopes of all beads.
@@ -101,7 +107,7 @@ void TwoRateMotion<D>::continued(const Jet<D>& jet, double t, const Table<D>& y,
   const Vec<D> held = chain_.point.row(followed_beads).matrix().transpose();
   slope.middleRows(i, m).template middleCols<D>(velocity_column<D>) +=
       field_of<D>(chain_.point_charge[followed_beads], held, point, m).colwise() *
-      (Q() * jet.charge.segment(i, m) / jet.mass.segment(i, m));
+      specific_charge(jet, middle);
 }
 
 /// The slopes of the followed beads.
@@ -215,9 +221,9 @@ void TwoRateMotion<D>::push_by_held(const Jet<D>& jet, const Node<D>& from, doub
   push(from.t + h / 2, columns<D>(half), 4 * h / 6, 2 * h * h / 6);
   push(from.t + h, columns<D>(std::as_const(all)), h / 6, 0);
 
-  const Eigen::ArrayXd specific_charge = Q() * jet.charge.segment(i, m) / jet.mass.segment(i, m);
-  all.middleRows(i, m).template middleCols<D>(velocity_column<D>) += velocity.colwise() * specific_charge;
-  all.middleRows(i, m).template leftCols<D>() += way.colwise() * specific_charge;
+  const Eigen::ArrayXd per_field = specific_charge(jet, middle);
+  all.middleRows(i, m).template middleCols<D>(velocity_column<D>) += velocity.colwise() * per_field;
+  all.middleRows(i, m).template leftCols<D>() += way.colwise() * per_field;
 }
 
 /// What the continuation would have given now against what is true, in the norm of the step control.
@@ -233,7 +239,7 @@ double TwoRateMotion<D>::mismatch(const Jet<D>& jet, double t, const Table<D>& y
     const int i = end.fast.first, m = end.fast.size();
     const Points far = moments_.continuation(w, &Moment<D>::far, end.fast) - now.far.middleRows(i, m);
     error.middleRows(i, m).template middleCols<D>(velocity_column<D>) =
-        far.colwise() * (Q() * jet.charge.segment(i, m) / jet.mass.segment(i, m));
+        far.colwise() * specific_charge(jet, end.fast);
     error.middleRows(i, m).col(stress_column<D>).setZero();
   }
   return norm_(error, y);

@@ -54,6 +54,7 @@ class TwoRateMotion final : public Motion<D> {
   using Weights = typename Moments<D>::Weights;
 
   double Q() const { return full_.coulomb()->Q(); }
+  Eigen::ArrayXd specific_charge(const Jet<D>& jet, Rows rows) const;
   void follow(const Jet<D>& jet, const Table<D>& y);
   void continued(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope);
   void continued_ends(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope);
@@ -69,7 +70,7 @@ class TwoRateMotion final : public Motion<D> {
   double interval_ = 0;
   std::int64_t full_evaluations_ = 0;
 
-  Followed<D> followed_;
+  Followed<D> followed_{{}, {}, followed_old};
   Eigen::ArrayXd specific_charge_;  ///< Q q / m of the followed beads
   Chain<D> chain_;                  ///< of these
   Points field_;                    ///< of this stage
