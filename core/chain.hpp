@@ -38,12 +38,13 @@ void set_boundary(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, d
   chain.tangent.resize(n, Eigen::NoChange);
   for (auto* a : {&chain.inverse_length, &chain.strain_rate, &chain.stress, &chain.inverse_mass})
     a->resize(n);
+  const Vec<D> origin = nozzle.position(t);
   if (jet.held) {
-    const Vec<D> youngest = position<D>(y, n - 1);
-    chain.point.row(n) = nozzle.held_position(youngest, t).transpose();
-    chain.point_charge[n] = nozzle.faded_charge(youngest, t);
+    const auto held = nozzle.held(position<D>(y, n - 1), origin);
+    chain.point.row(n) = held.position.transpose();
+    chain.point_charge[n] = held.charge;
   }
-  chain.point.row(points - 1) = nozzle.position(t).transpose();
+  chain.point.row(points - 1) = origin.transpose();
   chain.point_charge[points - 1] = Nozzle<D>::charge;
 }
 

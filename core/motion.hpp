@@ -4,6 +4,7 @@
 /// `jet` tells what is constant within a step: mass and charge of the beads, and whether one is held; its own
 /// t and y are not looked at. `slope` is resized to the shape of y.
 
+#include <limits>
 #include <stdexcept>
 
 #include "core/local_jacobian.hpp"
@@ -29,9 +30,19 @@ class Motion {
   virtual void operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) = 0;
 
   /// At an accepted point of the solution: a motion that remembers (forces/two_rate_motion.hpp) learns here.
-  virtual void at_node(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
-    (*this)(jet, t, y, slope);
+  /// `known` is the slope that a stage has found there, of the followed beads if a step follows some. False
+  /// if that was enough.
+  virtual bool at_node(const Jet<D>& jet, double t, const Table<D>& y, const Table<D>* known,
+                       Table<D>& slope) {
+    if (known)
+      slope = *known;
+    else
+      (*this)(jet, t, y, slope);
+    return !known;
   }
+
+  /// The longest step from an accepted point that what is remembered there may be continued for.
+  virtual double longest_step() const { return std::numeric_limits<double>::infinity(); }
 
   /// A motion that knows the way of some beads through a step from here gives the others, without t and y of
   /// their jet. The stages of the step are then asked for with these beads' jet and tables only. Null: all

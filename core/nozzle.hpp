@@ -57,17 +57,22 @@ class Nozzle {
     return (r - position(t)).norm() - (jet.held ? 2.0 : 1.5) * l_step_;
   }
 
-  /// Where the held bead sits while the youngest one is at r.
-  Vec<D> held_position(const Vec<D>& r, double t) const {
-    const Vec<D> nozzle = position(t);
-    return nozzle + l_step_ * (r - nozzle).normalized();
+  struct Held {
+    Vec<D> position;
+    double charge;
+  };
+
+  /// The held bead while the youngest one is at r and the nozzle at `origin`.
+  Held held(const Vec<D>& r, const Vec<D>& origin) const {
+    const Vec<D> way = r - origin;
+    const double length = way.norm();
+    return {origin + l_step_ / length * way, faded_charge(length / l_step_)};
   }
 
-  /// s(d), the fraction of its charge that the held bead shows. Past d = 2 l_step, where only the step that
-  /// goes beyond a located release asks for it, it goes on smoothly: a kink inside that step would make the
-  /// release an event of third order. Where the release waits for the end of a step, the charge waits at 1.
-  double faded_charge(const Vec<D>& r, double t) const {
-    const double d = (r - position(t)).norm() / l_step_;
+  /// s(d), d in units of l_step. Past d = 2, where only the step that goes beyond a located release asks for
+  /// it, it goes on smoothly: a kink inside that step would make the release an event of third order. Where
+  /// the release waits for the end of a step, the charge waits at 1.
+  double faded_charge(double d) const {
     if (d <= 1.5) return 0;
     if (d >= 2.0 && release_waits_) return 1;
     return 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (d - 1.5));
@@ -80,7 +85,7 @@ class Nozzle {
     const Vec<D> r = treejet::position<D>(jet.y, youngest);
     Vec<D> v = treejet::velocity<D>(jet.y, youngest) / 2;
     v[0] += speed_ / 2;
-    append<D>(jet, held_position(r, jet.t), v, /*stress*/ 0, /*mass*/ 1, /*charge*/ 1);
+    append<D>(jet, held(r, position(jet.t)).position, v, /*stress*/ 0, /*mass*/ 1, /*charge*/ 1);
     jet.held = false;
   }
 

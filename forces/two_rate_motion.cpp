@@ -44,10 +44,19 @@ void TwoRateMotion<D>::operator()(const Jet<D>& jet, double t, const Table<D>& y
 }
 
 template <int D>
-void TwoRateMotion<D>::at_node(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
+bool TwoRateMotion<D>::at_node(const Jet<D>& jet, double t, const Table<D>& y, const Table<D>* known,
+                               Table<D>& slope) {
   const double since = moments_.since(t);
   const bool continues = moments_.continuable(y.rows());
-  if (continues && since < interval_) return continued(jet, t, y, slope);
+  if (continues && since < interval_) {
+    if (!known)
+      continued(jet, t, y, slope);
+    else if (known->rows() < y.rows())
+      continue_middle(jet, t, y, *known, slope);
+    else
+      slope = *known;
+    return !known;
+  }
   full_(jet, t, y, slope);
   ++full_evaluations_;
   Moment<D> now(t, full_.chain(), jet, full_.coulomb()->field(), slope, Q());
@@ -56,10 +65,13 @@ void TwoRateMotion<D>::at_node(const Jet<D>& jet, double t, const Table<D>& y, T
     const double error = mismatch(jet, t, y, now) * since;
     // a slow bead gains this error over and over on its whole way, while most steps err on the youngest bead
     // only
-    constexpr double aim = 1e-3, order = 4;
+    constexpr double aim = 0.02, order = 4;
     interval_ = since * std::clamp(std::pow(aim / std::max(error, 1e-10), 1 / order), 0.3, 1.5);
+  } else {
+    interval_ = since;
   }
   moments_.remember(std::move(now));
+  return true;
 }
 
 template <int D>
@@ -92,9 +104,15 @@ template <int D>
 void TwoRateMotion<D>::continued(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) {
   follow(jet, y);
   continued_ends(followed_.jet, t, followed_.from.y, followed_.from.slope);
-  slope.resize(y.rows(), Eigen::NoChange);
-  put_followed(followed_.from.slope, slope);
+  continue_middle(jet, t, y, followed_.from.slope, slope);
+}
 
+/// The slopes of all beads from those of the followed ones.
+template <int D>
+void TwoRateMotion<D>::continue_middle(const Jet<D>& jet, double t, const Table<D>& y, const Table<D>& ends,
+                                       Table<D>& slope) const {
+  slope.resize(y.rows(), Eigen::NoChange);
+  put_followed(ends, slope);
   const Rows middle = middle_of(y.rows());
   const int i = middle.first, m = middle.size();
   const Weights w = moments_.weights(t);
@@ -103,11 +121,11 @@ void TwoRateMotion<D>::continued(const Jet<D>& jet, double t, const Table<D>& y,
   for (int k = 0; k <= D; ++k)
     weighted_sum(nullptr, w, moments_.slopes(k, i), m, slope.col(velocity_column<D> + k).data() + i);
   if (!jet.held) return;
+  const Nozzle<D>& nozzle = full_.nozzle();
+  const auto held = nozzle.held(position<D>(y, y.rows() - 1), nozzle.position(t));
   const Points point = y.middleRows(i, m).template leftCols<D>();
-  const Vec<D> held = chain_.point.row(followed_beads).matrix().transpose();
   slope.middleRows(i, m).template middleCols<D>(velocity_column<D>) +=
-      field_of<D>(chain_.point_charge[followed_beads], held, point, m).colwise() *
-      specific_charge(jet, middle);
+      field_of<D>(held.charge, held.position, point, m).colwise() * specific_charge(jet, middle);
 }
 
 /// The slopes of the followed beads.
@@ -209,10 +227,9 @@ void TwoRateMotion<D>::push_by_held(const Jet<D>& jet, const Node<D>& from, doub
   const auto push = [&](double t, std::array<const double*, D> point, double once, double twice) {
     Vec<D> r;
     for (int k = 0; k < D; ++k) r[k] = point[k][youngest], point[k] += i;
-    const Vec<D> held = nozzle.held_position(r, t);
-    const double q = nozzle.faded_charge(r, t);
-    add_field_of<D>(q * once, held, point, m, columns<D>(velocity));
-    if (twice > 0) add_field_of<D>(q * twice, held, point, m, columns<D>(way));
+    const auto held = nozzle.held(r, nozzle.position(t));
+    add_field_of<D>(held.charge * once, held.position, point, m, columns<D>(velocity));
+    if (twice > 0) add_field_of<D>(held.charge * twice, held.position, point, m, columns<D>(way));
   };
   const auto change =
       from.y.template middleCols<D>(velocity_column<D>) - all.template middleCols<D>(velocity_column<D>);

@@ -38,7 +38,11 @@ class TwoRateMotion final : public Motion<D> {
 
   /// For the tables of all beads, or of those that `followed` gave.
   void operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) override;
-  void at_node(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) override;
+  bool at_node(const Jet<D>& jet, double t, const Table<D>& y, const Table<D>* known,
+               Table<D>& slope) override;
+  double longest_step() const override {
+    return moments_.continuable(moments_.beads()) ? interval_ : Motion<D>::longest_step();
+  }
   const Followed<D>* followed(const Jet<D>& jet, const Node<D>& from) override;
   void complete(const Jet<D>& jet, const Node<D>& from, double h, const Table<D>& some,
                 Table<D>& next) override;
@@ -57,6 +61,8 @@ class TwoRateMotion final : public Motion<D> {
   Eigen::ArrayXd specific_charge(const Jet<D>& jet, Rows rows) const;
   void follow(const Jet<D>& jet, const Table<D>& y);
   void continued(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope);
+  void continue_middle(const Jet<D>& jet, double t, const Table<D>& y, const Table<D>& ends,
+                       Table<D>& slope) const;
   void continued_ends(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope);
   void set_near_beads(const Weights& w, const Table<D>& y, Table<D>& slope) const;
   void accelerate(Rows rows, Table<D>& slope) const;
@@ -67,7 +73,7 @@ class TwoRateMotion final : public Motion<D> {
   EquationsOfMotion<D>& full_;
   ErrorNorm norm_;
   Moments<D> moments_;
-  double interval_ = 0;
+  double interval_ = 0;  ///< how far the moments may be continued
   std::int64_t full_evaluations_ = 0;
 
   Followed<D> followed_{{}, {}, followed_old};

@@ -24,6 +24,15 @@ std::string likely_cause(const Table<D>& before, Eigen::Index bead) {
          "timestep";
 }
 
+/// About the length of the element between the youngest bead and the nozzle, which may circle: the greater of
+/// the element before it and the way from the middle of the circle.
+template <int D>
+double youngest_element(const Table<D>& y) {
+  const Eigen::Index youngest = y.rows() - 1;
+  const Vec<D> r = position<D>(y, youngest);
+  return youngest == 0 ? r.norm() : std::max(r.norm(), (r - position<D>(y, youngest - 1)).norm());
+}
+
 }  // namespace
 
 template <int D>
@@ -59,9 +68,7 @@ std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, st
                          "the time step is too large, or the beads have met");
     }
     const Eigen::Index youngest = y.rows() - 1;
-    const bool thrown =
-        y.rows() > 0 && before(youngest, 0) > 0 && y(youngest, 0) < -position<D>(before, youngest).norm();
-    if (thrown) {
+    if (y.rows() > 0 && before(youngest, 0) > 0 && y(youngest, 0) < -youngest_element<D>(before)) {
       return fmt::format(
           "bead {} has been thrown behind the nozzle; likely cause: the time step is too large", youngest);
     }

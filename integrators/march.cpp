@@ -22,9 +22,8 @@ void halt_if(const std::optional<std::string>& trouble, double t) {
 }  // namespace
 
 template <int D>
-void March<D>::evaluate(Node<D>& node) {
-  parts_.motion.at_node(parts_.jet, node.t, node.y, node.slope);
-  ++effort_.evaluations;
+void March<D>::evaluate(Node<D>& node, const Table<D>* known) {
+  effort_.evaluations += parts_.motion.at_node(parts_.jet, node.t, node.y, known, node.slope);
 }
 
 template <int D>
@@ -77,8 +76,8 @@ std::optional<typename March<D>::Due> March<D>::first_event(const Segment<D>& se
   return first;
 }
 
-/// Time to the next event, at most `horizon`, as position, velocity, acceleration and jerk at now_ foretell
-/// it.
+/// Time to the next event, at most `horizon`: by the rhythm of insertions, or as position, velocity,
+/// acceleration and jerk at now_ foretell it.
 template <int D>
 double March<D>::predicted_event(double horizon) const {
   double soonest = horizon;
@@ -99,7 +98,13 @@ double March<D>::predicted_event(double horizon) const {
     }
     soonest = high;
   };
-  if (parts_.nozzle.inserting()) foretell(true, now_.y.rows() - 1, youngest_jerk_);
+  if (parts_.nozzle.inserting()) {
+    const double regular = rhythm_.next(parts_.jet.held).value_or(now_.t);
+    if (regular > now_.t)
+      soonest = std::min(soonest, regular - now_.t);
+    else
+      foretell(true, now_.y.rows() - 1, youngest_jerk_);
+  }
   if (parts_.collector.removing()) foretell(false, 0, oldest_jerk_);
   return soonest;
 }
@@ -147,15 +152,17 @@ void March<D>::give_up() const {
 template <int D>
 double March<D>::attempt(double end) {
   while (true) {
-    double h = parts_.control.proposal(now_.t, end);
+    double h = std::min(parts_.control.proposal(now_.t, end), parts_.motion.longest_step());
     bool aimed = false;
     if (aims()) {
-      const double ahead = predicted_event(2.2 * h);
-      aimed = ahead <= 1.1 * h;
-      if (aimed)
-        h = ahead;
-      else if (ahead < 2 * h)
-        h = ahead / 2;
+      // steps of one length up to the event
+      constexpr double stretch = 1.1, steps = 4;
+      const double horizon = steps * stretch * h, ahead = predicted_event(horizon);
+      if (ahead < horizon) {
+        const double n = std::max(std::ceil(ahead / (stretch * h)), 1.0);
+        aimed = n == 1;
+        h = ahead / n;
+      }
       h = std::min(h, end - now_.t);
     }
     if (!(now_.t + h > now_.t)) give_up();
@@ -191,7 +198,7 @@ bool March<D>::to(double end) {
     if (parts_.pause && parts_.pause()) return false;
     const double reach = attempt(end);
     halt_if(trouble<D>(now_.y, next_.y, parts_.holding.before(parts_.jet)), next_.t);
-    evaluate(next_);
+    evaluate(next_, parts_.stepper.slope_at_end());
     if (parts_.events == EventRule::step) {
       commit(std::nullopt);
       look_at_step_end();
@@ -208,7 +215,8 @@ bool March<D>::to(double end) {
 
 template <int D>
 void March<D>::visit(Archive& state) {
-  state(parts_.jet, parts_.motion, parts_.control, now_, youngest_jerk_, oldest_jerk_, effort_, under_way_);
+  state(parts_.jet, parts_.motion, parts_.control, now_, rhythm_, youngest_jerk_, oldest_jerk_, effort_,
+        under_way_);
 }
 
 /// The event that ends this step, if any. An adaptive step with an event well inside is made anew to end
@@ -221,7 +229,7 @@ std::optional<typename March<D>::Due> March<D>::located_event(double reach) {
   if (due && aims() && due->t > now_.t && due->t < next_.t - dense_fraction * h) {
     ++effort_.redone;
     step(due->t - now_.t);
-    evaluate(next_);
+    evaluate(next_, parts_.stepper.slope_at_end());
     due = first_event(Segment<D>(now_, next_), next_.t + dense_fraction * h);
   }
   return due;
@@ -236,8 +244,11 @@ void March<D>::commit(std::optional<Due> due) {
   if (due) {
     parts_.jet.t = due->t;
     parts_.jet.y = segment.at(due->t);
+    // the held bead's charge rises slowly at first, the jerk of the youngest bead goes on through its
+    // placement
+    youngest_jerk_ = segment.jerk_at_end(now_.y.rows() - 1);
+    oldest_jerk_ = segment.jerk_at_end(0);
     settle(*due);
-    youngest_jerk_ = oldest_jerk_ = std::nullopt;
     now_.t = parts_.jet.t;
     now_.y = parts_.jet.y;
     if (now_.y.rows() > 0) evaluate(now_);
@@ -253,6 +264,7 @@ void March<D>::commit(std::optional<Due> due) {
 template <int D>
 void March<D>::insertion() {
   Jet<D>& jet = parts_.jet;
+  rhythm_.insertion(jet.held, jet.t);
   const EventKind kind = jet.held ? EventKind::release : EventKind::place;
   if (under_way_) parts_.nozzle.check_timely(jet);
   if (jet.held) {
@@ -260,6 +272,7 @@ void March<D>::insertion() {
     parts_.motion.after_release(jet);
     parts_.holding.after_release(jet);
     ++effort_.released;
+    youngest_jerk_.reset();
   } else {
     parts_.nozzle.place(jet);
     ++effort_.placed;
@@ -282,6 +295,7 @@ void March<D>::removal() {
   drop_first<D>(jet);
   parts_.holding.after_removal(jet);
   ++effort_.removed;
+  oldest_jerk_.reset();
   parts_.control.event(EventKind::removal);
 }
 

@@ -19,6 +19,7 @@
 #include "core/holding.hpp"
 #include "core/nozzle.hpp"
 #include "core/watcher.hpp"
+#include "integrators/rhythm.hpp"
 #include "integrators/step_control.hpp"
 #include "integrators/stepper.hpp"
 
@@ -66,7 +67,7 @@ class March {
 
   bool aims() const { return parts_.control.steps_to_events() && parts_.events == EventRule::located; }
   void start();
-  void evaluate(Node<D>& node);
+  void evaluate(Node<D>& node, const Table<D>* known = nullptr);
   void step(double h);
   double error() const;
   [[noreturn]] void give_up() const;
@@ -89,6 +90,7 @@ class March {
   Table<D> followed_next_;
   std::optional<Vec<D>> youngest_jerk_,
       oldest_jerk_;  ///< third derivatives at now_, unless an event has just passed
+  Rhythm rhythm_;
   Table<D> one_;
   Effort effort_;
   bool under_way_ = false;  ///< started, and not yet at the end

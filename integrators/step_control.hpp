@@ -4,11 +4,15 @@
 /// Fixed: steps end on the grid k dt. An event inside a step splits it; the next step leads back to the grid.
 ///
 /// By tolerance: a step stands if its local error, core/error_norm.hpp over the tolerance, is at most 1; the
-/// next one is h * 0.9 * error^-alpha * previous_error^beta (proportional-integral control).
+/// next one is h * 0.9 * error^-alpha * previous_error^beta (proportional-integral control). After an event
+/// beads are pushed in another way than before, and events repeat: the step there is what the last first step
+/// after an event of this kind would have been allowed.
 /// Source of the controller: Hairer, Norsett, Wanner, "Solving ODEs I", II.4; Gustafsson (1991).
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/jet.hpp"
 #include "core/watcher.hpp"
@@ -58,30 +62,43 @@ class AdaptiveStep final : public StepControl {
       return false;
     }
     const double e = std::max(error, 1e-10);
-    double factor = 0.9 * std::pow(e, -0.7 / k) * std::pow(previous_error_, 0.4 / k);
-    factor = std::clamp(factor, 0.2, rejected_ ? 1.0 : 5.0);
+    double factor =
+        after_ ? 0.9 * std::pow(e, -1 / k) : 0.9 * std::pow(e, -0.7 / k) * std::pow(previous_error_, 0.4 / k);
+    // more at once, and the last steps before an event would be longer than the first ones after it
+    factor = std::clamp(factor, 0.2, rejected_ ? 1.0 : 1.8);
     // a step cut short for an event says little of what the next may be
     if (h >= 0.5 * h_ || factor * h > h_) {
       h_ = h * factor;
       previous_error_ = std::max(e, 1e-4);
+      if (after_) learn(first_step_after(*after_));
     }
     rejected_ = false;
+    after_.reset();
     return true;
   }
 
   bool steps_to_events() const override { return true; }
 
   void event(EventKind kind) override {
-    if (kind == EventKind::place) h_ *= 0.5;  // the held bead's charge starts to rise
+    after_ = kind;
+    const double first = first_step_after(kind);
+    h_ = first > 0 ? first : h_ / 2;
   }
 
-  void visit(Archive& state) override { state(h_, previous_error_, rejected_); }
+  void visit(Archive& state) override { state(h_, previous_error_, rejected_, after_, first_); }
 
  private:
+  /// The next first step after an event is h_, but little longer than the last: what is rejected now is not
+  /// tried again at once.
+  void learn(double& first) const { first = first > 0 ? std::min(h_, 1.1 * first) : h_; }
+  double& first_step_after(EventKind kind) { return first_[static_cast<std::size_t>(kind)]; }
+
   double h_;
   int order_;
   double previous_error_ = 1e-4;
   bool rejected_ = false;
+  std::optional<EventKind> after_;    ///< an event, unless a step has been made since
+  std::array<double, 3> first_ = {};  ///< allowed after each kind of event; 0: none yet
 };
 
 }  // namespace treejet

@@ -18,6 +18,8 @@ class Stepper {
   virtual int order() const = 0;
   virtual int evaluations() const = 0;  ///< of f, a step, beside the slope that `from` brings
   virtual void step(Motion<D>& f, const Jet<D>& jet, const Node<D>& from, double h, Table<D>& next) = 0;
+  /// The slope at `next`, of a scheme that needs it for its error estimate.
+  virtual const Table<D>* slope_at_end() const { return nullptr; }
 
   Table<D> error;
 };

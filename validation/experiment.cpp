@@ -27,9 +27,10 @@ class Limited final : public Motion<D> {
     count();
     motion_(jet, t, y, slope);
   }
-  void at_node(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) override {
+  bool at_node(const Jet<D>& jet, double t, const Table<D>& y, const Table<D>* known,
+               Table<D>& slope) override {
     count();
-    motion_.at_node(jet, t, y, slope);
+    return motion_.at_node(jet, t, y, known, slope);
   }
   void differentiate(const Jet<D>& jet, double t, const Table<D>& y, LocalJacobian<D>& J) override {
     motion_.differentiate(jet, t, y, J);

@@ -27,10 +27,10 @@ std::vector<Case> cases(bool quick) {
   // s.
   const std::vector<std::string> near = {"collector distance 20", "external potential 27.78140832",
                                          "final time 0.08", "print time 0.01"};
-  return {{"case 1", example("single-bead"), false, 2e-3, quick ? 2e4 : 1e5, 1e-14},
-          {"case 2", example("straight-jet", near), true, 4e-4, quick ? 3e5 : 4e5, 1e-13},
+  return {{"case 1", example("single-bead"), false, 2e-3, quick ? 2e4 : 1e5, 1e-13},
+          {"case 2", example("straight-jet", near), true, 4e-4, quick ? 3e5 : 4e5, 1e-12},
           {"case 3", example("pvp", {quick ? "final time 0.0105" : "final time 0.012"}), true, 2e-5,
-           quick ? 0 : 3e5, 1e-13}};
+           quick ? 0 : 3e5, 1e-12}};
 }
 
 /// Two solutions at the tightest tolerance, each the judge of the other's scheme; all forces at all stages.
@@ -158,7 +158,9 @@ class WorkPrecision {
 
   /// In the limit of short steps the error is proportional to the tolerance: both fall as step^order. At
   /// loose tolerances events, not the tolerance, end most steps, which lowers the exponent; at 0.5 a
-  /// hundredth of the tolerance would still buy a tenth of the error.
+  /// hundredth of the tolerance would still buy a tenth of the error. What raises it is the next term of the
+  /// error, one power of the step higher: 1 + 1 / order; half of that more is for errors that are no longer
+  /// small at the loose end.
   void adaptive(const Case& c, const Reference& reference, Scheme scheme, Multirate multirate) {
     Method method{.scheme = scheme, .multirate = multirate};
     std::vector<Point> points;
@@ -172,7 +174,8 @@ class WorkPrecision {
     const auto what = fmt::format("{}, {}: ", c.name, name(method));
     const PowerLaw found = power_law(points);
     tolerances_.push_back({c.name, name(method), 1., found, std::int64_t(points.size())});
-    report_.check(what + "exponent of error against tolerance over six decades", found.exponent, 0.5, 1.2);
+    report_.check(what + "exponent of error against tolerance over six decades", found.exponent, 0.5,
+                  1 + 1.5 / stepper<1>(scheme)->order());
     report_.check(what + "error at a tenth of the tolerance over error, at the worst", worst_rise, 0, 2);
   }
 

@@ -55,9 +55,10 @@ TEST_CASE("The internal forces on beads, held bead and nozzle sum up to zero") {
 
     const Vec<3> youngest = position<3>(jet.y, 39), at = nozzle.position(jet.t);
     Vec<3> on_boundary = coulomb_on(at, 1, jet, Q);
-    if (held)
-      on_boundary +=
-          coulomb_on(nozzle.held_position(youngest, jet.t), nozzle.faded_charge(youngest, jet.t), jet, Q);
+    if (held) {
+      const auto [p_held, q_held] = nozzle.held(youngest, at);
+      on_boundary += coulomb_on(p_held, q_held, jet, Q);
+    }
     on_boundary +=
         L_step * F_ve * jet.y(39, stress_column<3>) * (youngest - at) / (youngest - at).squaredNorm();
 

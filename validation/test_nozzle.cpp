@@ -61,7 +61,7 @@ TEST_CASE("The held bead waits on the chord to the youngest bead, one element fr
   const Nozzle<3> nozzle(circling());
   const Vec<3> r(1.2, 0.7, -0.4);
   for (double t : {0.0, 0.37, 2.0}) {
-    const Vec<3> n = nozzle.position(t), held = nozzle.held_position(r, t);
+    const Vec<3> n = nozzle.position(t), held = nozzle.held(r, n).position;
     CHECK((held - n).norm() == Approx(1).epsilon(1e-15));
     CHECK((held - n).cross(r - n).norm() < 1e-15);
     CHECK((held - n).dot(r - n) > 0);
@@ -72,7 +72,7 @@ TEST_CASE("The charge of the held bead rises from 0 to 1 with no slope at either
   Parameters p = circling();
   p.perturb = false;
   const Nozzle<3> nozzle(p);
-  const auto s = [&](double d) { return nozzle.faded_charge(d * Vec<3>(0.6, 0.8, 0), 0); };
+  const auto s = [&](double d) { return nozzle.faded_charge(d); };
   CHECK(s(1.2) == 0);
   CHECK(s(2) == 1);
   CHECK(s(1.75) == Approx(0.5).epsilon(1e-14));
@@ -87,13 +87,15 @@ TEST_CASE("The charge of the held bead rises from 0 to 1 with no slope at either
 TEST_CASE("The held bead acts on others with its faded charge and is no row of the table") {
   const Parameters p = circling();
   const Nozzle<3> nozzle(p);
-  Jet<3> jet = jet_of<3>({{Vec<3>(3, 0, 0)}, {Vec<3>(1.7, 0.2, 0)}});
+  const Vec<3> youngest(1.7, 0.2, 0);
+  Jet<3> jet = jet_of<3>({{Vec<3>(3, 0, 0)}, {youngest}});
   nozzle.place(jet);
   CHECK(jet.size() == 2);
   Chain<3> chain;
   set_boundary<3>(chain, jet, nozzle, 0.2, jet.y);
   CHECK(chain.points() == 4);
-  CHECK(chain.point_charge[2] == nozzle.faded_charge(Vec<3>(1.7, 0.2, 0), 0.2));
+  const double d = (youngest - nozzle.position(0.2)).norm() / nozzle.l_step();
+  CHECK(chain.point_charge[2] == Approx(nozzle.faded_charge(d)).epsilon(1e-14));
   CHECK(chain.point_charge[3] == 1);
 }
 

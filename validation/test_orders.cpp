@@ -93,6 +93,20 @@ TEST_CASE("The error estimate of a pair is of the order of its lower partner, on
   }
 }
 
+TEST_CASE("An explicit pair ends with the slope of its result, which is the first of the next step") {
+  for (Scheme scheme : {Scheme::dopri5, Scheme::verner6}) {
+    Run<3> run = pushed_aside(example("single-bead"));
+    Node<3> from{0, run.jet().y, {}};
+    (*run.scene.motion)(run.jet(), 0, from.y, from.slope);
+    const auto pair = stepper<3>(scheme);
+    Table<3> next, slope;
+    pair->step(*run.scene.motion, run.jet(), from, 0.05, next);
+    (*run.scene.motion)(run.jet(), 0.05, next, slope);
+    CAPTURE(name(scheme));
+    CHECK((*pair->slope_at_end() == slope).all());
+  }
+}
+
 TEST_CASE("The error estimate is about as large as the error of the lower partner") {
   for (Scheme scheme : {Scheme::dopri5, Scheme::verner6, Scheme::kencarp5}) {
     const double h = 0.05;

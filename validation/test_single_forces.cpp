@@ -10,7 +10,13 @@ using namespace treejet;
 
 namespace {
 constexpr Scheme second_order_and_up[] = {Scheme::heun, Scheme::rk4, Scheme::dopri5, Scheme::verner6};
+
+/// Of 20 steps of 0.1. Verner's coefficients reach 207, his weights 176: a stage is off by 1e-16 * 207 h, the
+/// result by 176 h times that, 4e-14 a step.
+double round_off(Scheme scheme) {
+  return scheme == Scheme::verner6 ? 8e-13 : 1e-14;
 }
+}  // namespace
 
 TEST_CASE("A bead under gravity alone falls along a parabola") {
   const Parameters p = plain_parameters();
@@ -20,10 +26,10 @@ TEST_CASE("A bead under gravity alone falls along a parabola") {
     auto jet = jet_of<3>({{Vec<3>(1, 2, 3), Vec<3>(0.5, -0.25, 0.125)}});
     march_to<3>(2, 0.1, jet, f, p, scheme);
     // a parabola is integrated without truncation error from order 2 on: 20 steps of round-off remain
-    CHECK(jet.y(0, 0) == Approx(1 + 0.5 * 2 + 0.8 * 2 * 2 / 2).epsilon(1e-14));
-    CHECK(jet.y(0, 1) == Approx(2 - 0.25 * 2).epsilon(1e-14));
-    CHECK(jet.y(0, 2) == Approx(3 + 0.125 * 2).epsilon(1e-14));
-    CHECK(jet.y(0, 3) == Approx(0.5 + 0.8 * 2).epsilon(1e-14));
+    CHECK(jet.y(0, 0) == Approx(1 + 0.5 * 2 + 0.8 * 2 * 2 / 2).epsilon(round_off(scheme)));
+    CHECK(jet.y(0, 1) == Approx(2 - 0.25 * 2).epsilon(round_off(scheme)));
+    CHECK(jet.y(0, 2) == Approx(3 + 0.125 * 2).epsilon(round_off(scheme)));
+    CHECK(jet.y(0, 3) == Approx(0.5 + 0.8 * 2).epsilon(round_off(scheme)));
   }
 }
 
@@ -35,8 +41,8 @@ TEST_CASE("In the external field alone a bead accelerates by its charge over its
     auto jet = jet_of<1>({{Vec<1>(4), Vec<1>(0), 0, /*mass*/ 2, /*charge*/ 3},
                           {Vec<1>(1), Vec<1>(0), 0, /*mass*/ 5, /*charge*/ 1}});
     march_to<1>(2, 0.1, jet, f, p, scheme);
-    CHECK(jet.y(0, 0) == Approx(4 + 1.5 * 3 / 2 * 2).epsilon(1e-14));  // round-off, as for gravity
-    CHECK(jet.y(1, 0) == Approx(1 + 1.5 * 1 / 5 * 2).epsilon(1e-14));
+    CHECK(jet.y(0, 0) == Approx(4 + 1.5 * 3 / 2 * 2).epsilon(round_off(scheme)));  // as for gravity
+    CHECK(jet.y(1, 0) == Approx(1 + 1.5 * 1 / 5 * 2).epsilon(round_off(scheme)));
   }
 }
 
