@@ -6,7 +6,7 @@
 namespace treejet {
 
 ErrorNorm::ErrorNorm(const Parameters& p) {
-  constexpr double allowance = 30, most = 0.1;
+  constexpr double allowance = 25, most = 0.1;
   const Stiffness s = stiffness(p);
   const double T = std::max(1.0, s.bead_interval / s.relaxation);
   length_ = groups(p).L_step;

@@ -11,7 +11,7 @@
 /// fluid that is all but Newtonian nothing is as fast as it relaxes. A maximum, not a mean: nearly all of the
 /// error sits on the youngest bead, where an average over the chain would hide it.
 ///
-/// The allowance is a choice of scale: it makes tolerance 1e-6 mean errors of about 1e-5 of the collector
+/// The allowance is a choice of scale: it makes tolerance 1e-6 mean errors of less than 1e-5 of the collector
 /// distance in the farthest bead of the paper's case 3. `most` keeps a step from following another solution.
 
 #include <algorithm>

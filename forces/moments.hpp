@@ -15,8 +15,8 @@
 namespace treejet {
 
 /// Fast beads at the two ends of the jet, and how many points next to them act on them by a field that is not
-/// continued. With AVX-512 the latter fill a block of the direct kernel.
-constexpr int fast_old = 8, fast_young = 24, near_points = 16;
+/// continued. Fewer young ones would make the step wait for the slow ones; more do not lengthen it.
+constexpr int fast_old = 4, fast_young = 24, near_points = 8;
 /// Both ends with what is near to them: beads that a step at two rates follows, and those of the old end.
 constexpr int followed_old = fast_old + near_points, followed_beads = followed_old + near_points + fast_young;
 

@@ -26,7 +26,7 @@ struct Scene {
   std::vector<std::string> overrides;
 };
 
-/// Two rates (which begin at 64 beads), a straight jet, a stiff scheme, a tree: each of a few tenths of a
+/// Two rates (which begin at 44 beads), a straight jet, a stiff scheme, a tree: each of a few tenths of a
 /// second, with insertion and removal.
 const Scene scenes[] = {
     {"two rates", "pvp", {"final time 4.d-2", "print time 1.d-4", "print xyz 1.d-3", "print hdf5 1.d-3"}},

@@ -33,7 +33,7 @@ TEST_CASE(
     // 1e-4 cm is what tolerance 1e-6 stands for in case 3; the continuation may take half of it
     CHECK(two.x() == Approx(one.x()).margin(5e-5));
     CHECK(two.yz() == Approx(one.yz()).margin(5e-5));
-    // every evaluation is full while the jet is short, below 64 beads; later about one in twelve
+    // every evaluation is full while the jet is short; later about one in twenty
     REQUIRE(two.scene.two_rates);
     CHECK(2 * two.scene.two_rates->full_evaluations() < effort.evaluations);
   }
