@@ -10,7 +10,7 @@
 namespace treejet {
 
 /// Part of the work that measuring the error may take.
-constexpr double measuring_share = 0.03;
+constexpr double measuring_share = 0.04;
 /// Evaluations between two sorts of the points in space, while their number stays the same.
 constexpr int sorted_every = 16;
 
