@@ -76,39 +76,6 @@ std::optional<typename March<D>::Due> March<D>::first_event(const Segment<D>& se
   return first;
 }
 
-/// Time to the next event, at most `horizon`: by the rhythm of insertions, or as position, velocity,
-/// acceleration and jerk at now_ foretell it.
-template <int D>
-double March<D>::predicted_event(double horizon) const {
-  double soonest = horizon;
-  const auto foretell = [&](bool insertion, Eigen::Index i, const std::optional<Vec<D>>& jerk) {
-    const Vec<D> r = position<D>(now_.y, i), v = velocity<D>(now_.y, i), a = velocity<D>(now_.slope, i);
-    const auto g = [&](double s) {
-      Vec<D> ahead = r + s * (v + s / 2 * a);
-      if (jerk) ahead += s * s * s / 6 * *jerk;
-      if (!insertion) return parts_.collector.overdue(ahead[0]);
-      return parts_.nozzle.overdue(parts_.jet, ahead, now_.t + s);
-    };
-    double low = 0, high = soonest, g_low = g(low), g_high = g(high);
-    if (!(g_low < 0 && g_high >= 0)) return;
-    for (int k = 0; k < 30 && high - low > 1e-9 * horizon; ++k) {
-      const double s = low + (high - low) * std::clamp(g_low / (g_low - g_high), 0.01, 0.99), g_s = g(s);
-      (g_s < 0 ? low : high) = s;
-      (g_s < 0 ? g_low : g_high) = g_s;
-    }
-    soonest = high;
-  };
-  if (parts_.nozzle.inserting()) {
-    const double regular = rhythm_.next(parts_.jet.held).value_or(now_.t);
-    if (regular > now_.t)
-      soonest = std::min(soonest, regular - now_.t);
-    else
-      foretell(true, now_.y.rows() - 1, youngest_jerk_);
-  }
-  if (parts_.collector.removing()) foretell(false, 0, oldest_jerk_);
-  return soonest;
-}
-
 template <int D>
 void March<D>::step(double h) {
   followed_ = parts_.motion.followed(parts_.jet, now_);
@@ -157,7 +124,7 @@ double March<D>::attempt(double end) {
     if (aims()) {
       // steps of one length up to the event
       constexpr double stretch = 1.1, steps = 4;
-      const double horizon = steps * stretch * h, ahead = predicted_event(horizon);
+      const double horizon = steps * stretch * h, ahead = forecast_.next_event(parts_.jet, now_, horizon);
       if (ahead < horizon) {
         const double n = std::max(std::ceil(ahead / (stretch * h)), 1.0);
         aimed = n == 1;
@@ -215,8 +182,7 @@ bool March<D>::to(double end) {
 
 template <int D>
 void March<D>::visit(Archive& state) {
-  state(parts_.jet, parts_.motion, parts_.control, now_, rhythm_, youngest_jerk_, oldest_jerk_, effort_,
-        under_way_);
+  state(parts_.jet, parts_.motion, parts_.control, now_, forecast_, effort_, under_way_);
 }
 
 /// The event that ends this step, if any. An adaptive step with an event well inside is made anew to end
@@ -241,22 +207,15 @@ void March<D>::commit(std::optional<Due> due) {
   Segment<D> segment(now_, next_);
   if (due) segment.until = due->t;
   for (auto* w : parts_.watchers) w->segment(parts_.jet, segment);
+  if (aims()) forecast_.step(segment);
   if (due) {
     parts_.jet.t = due->t;
     parts_.jet.y = segment.at(due->t);
-    // the held bead's charge rises slowly at first, the jerk of the youngest bead goes on through its
-    // placement
-    youngest_jerk_ = segment.jerk_at_end(now_.y.rows() - 1);
-    oldest_jerk_ = segment.jerk_at_end(0);
     settle(*due);
     now_.t = parts_.jet.t;
     now_.y = parts_.jet.y;
     if (now_.y.rows() > 0) evaluate(now_);
   } else {
-    if (aims()) {
-      youngest_jerk_ = segment.jerk_at_end(now_.y.rows() - 1);
-      oldest_jerk_ = segment.jerk_at_end(0);
-    }
     std::swap(now_, next_);
   }
 }
@@ -264,7 +223,7 @@ void March<D>::commit(std::optional<Due> due) {
 template <int D>
 void March<D>::insertion() {
   Jet<D>& jet = parts_.jet;
-  rhythm_.insertion(jet.held, jet.t);
+  forecast_.insertion(jet);
   const EventKind kind = jet.held ? EventKind::release : EventKind::place;
   if (under_way_) parts_.nozzle.check_timely(jet);
   if (jet.held) {
@@ -272,7 +231,6 @@ void March<D>::insertion() {
     parts_.motion.after_release(jet);
     parts_.holding.after_release(jet);
     ++effort_.released;
-    youngest_jerk_.reset();
   } else {
     parts_.nozzle.place(jet);
     ++effort_.placed;
@@ -295,7 +253,7 @@ void March<D>::removal() {
   drop_first<D>(jet);
   parts_.holding.after_removal(jet);
   ++effort_.removed;
-  oldest_jerk_.reset();
+  forecast_.removal();
   parts_.control.event(EventKind::removal);
 }
 

@@ -19,7 +19,7 @@
 #include "core/holding.hpp"
 #include "core/nozzle.hpp"
 #include "core/watcher.hpp"
-#include "integrators/rhythm.hpp"
+#include "integrators/forecast.hpp"
 #include "integrators/step_control.hpp"
 #include "integrators/stepper.hpp"
 
@@ -47,7 +47,8 @@ class March {
     Holding<D>& holding = held_whole<D>;
   };
 
-  explicit March(const Parts& parts) : parts_(parts), one_(1, 2 * D + 1) {}
+  explicit March(const Parts& parts)
+      : parts_(parts), forecast_(parts.nozzle, parts.collector), one_(1, 2 * D + 1) {}
 
   /// On to scaled time `end`, or until the jet is empty. False if told to pause before; the next call goes on
   /// from there.
@@ -75,7 +76,6 @@ class March {
   std::optional<Due> located_event(double reach);
   double overdue(bool insertion, const Table<D>& y, double t) const;
   double overdue(bool insertion, const Segment<D>& segment, double t);
-  double predicted_event(double horizon) const;
   std::optional<Due> first_event(const Segment<D>& segment, double reach);
   double zero(bool insertion, const Segment<D>& segment, double a, double b);
   void commit(std::optional<Due> due);
@@ -88,9 +88,7 @@ class March {
   Node<D> now_, next_;
   const Followed<D>* followed_ = nullptr;  ///< through the last step, null if all beads were
   Table<D> followed_next_;
-  std::optional<Vec<D>> youngest_jerk_,
-      oldest_jerk_;  ///< third derivatives at now_, unless an event has just passed
-  Rhythm rhythm_;
+  Forecast<D> forecast_;
   Table<D> one_;
   Effort effort_;
   bool under_way_ = false;  ///< started, and not yet at the end

@@ -4,7 +4,7 @@
 ///
 /// A jet that has settled repeats both to parts in a thousand. Their straight continuation then tells the
 /// next event from a whole interval away, better than the motion of the youngest bead does
-/// (integrators/march.hpp), whose acceleration is about to change. Scaled times.
+/// (integrators/forecast.hpp), whose acceleration is about to change. Scaled times.
 
 #include <array>
 #include <cmath>

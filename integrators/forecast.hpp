@@ -1,0 +1,43 @@
+#pragma once
+/// When the next event of a jet is to be expected, so that a step can end there instead of being made anew.
+///
+/// Insertions by their rhythm once it is regular; before that, and removals, as position, velocity,
+/// acceleration and jerk of the bead in question foretell them. Nothing depends on a forecast but how long
+/// steps are: events are located on the solution (integrators/march.hpp). Scaled.
+
+#include <optional>
+
+#include "core/collector.hpp"
+#include "core/nozzle.hpp"
+#include "core/segment.hpp"
+#include "integrators/rhythm.hpp"
+
+namespace treejet {
+
+template <int D>
+class Forecast {
+ public:
+  Forecast(const Nozzle<D>& nozzle, const Collector& collector) : nozzle_(nozzle), collector_(collector) {}
+
+  /// Time from `now` to the next event, at most `horizon`.
+  double next_event(const Jet<D>& jet, const Node<D>& now, double horizon) const;
+
+  /// A step has led to the end of the segment.
+  void step(const Segment<D>& segment);
+  /// The next insertion event is about to be carried out; the oldest bead has been removed.
+  void insertion(const Jet<D>& jet);
+  void removal() { oldest_jerk_.reset(); }
+
+  void visit(Archive& state) { state(rhythm_, youngest_jerk_, oldest_jerk_); }
+
+ private:
+  double time_to(bool insertion, const Jet<D>& jet, const Node<D>& now, double horizon) const;
+
+  const Nozzle<D>& nozzle_;
+  const Collector& collector_;
+  Rhythm rhythm_;
+  std::optional<Vec<D>> youngest_jerk_,
+      oldest_jerk_;  ///< third derivatives, of beads with a step behind them
+};
+
+}  // namespace treejet
