@@ -30,8 +30,8 @@ class Motion {
   virtual void operator()(const Jet<D>& jet, double t, const Table<D>& y, Table<D>& slope) = 0;
 
   /// At an accepted point of the solution: a motion that remembers (forces/two_rate_motion.hpp) learns here.
-  /// `known` is the slope that a stage has found there, of the followed beads if a step follows some. False
-  /// if that was enough.
+  /// `known` is the slope that a stage has found there, of the followed beads if a step follows some. True if
+  /// forces had to be evaluated.
   virtual bool at_node(const Jet<D>& jet, double t, const Table<D>& y, const Table<D>* known,
                        Table<D>& slope) {
     if (known)
@@ -41,7 +41,7 @@ class Motion {
     return !known;
   }
 
-  /// The longest step from an accepted point that what is remembered there may be continued for.
+  /// The longest step that a motion which continues what it remembers allows from an accepted point.
   virtual double longest_step() const { return std::numeric_limits<double>::infinity(); }
 
   /// A motion that knows the way of some beads through a step from here gives the others, without t and y of

@@ -93,7 +93,7 @@ std::array<const double*, Moments<D>::count> Moments<D>::slopes(int column, int 
 }
 
 template <int D>
-void Moments<D>::remember(Moment<D>&& now) {
+bool Moments<D>::remember(Moment<D>&& now) {
   const bool continued = continuable(now.field.rows());  // then all have their far field, `now` as well
   // values too close in time would make the parabola amplify their own errors
   const double usual = remembered_ >= 2 ? past_[0].t - past_[1].t : 0;
@@ -106,6 +106,7 @@ void Moments<D>::remember(Moment<D>&& now) {
   if (!continued && continuable(beads())) {
     for (auto& m : past_) m.set_far();
   }
+  return !replaces;
 }
 
 template <int D>

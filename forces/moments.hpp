@@ -79,8 +79,9 @@ class Moments {
   /// The rows from `first` on of a column of the slopes, moment by moment.
   std::array<const double*, count> slopes(int column, int first) const;
 
-  /// Where the parabola may be used already, `now` comes with its far field.
-  void remember(Moment<D>&& now);
+  /// Where the parabola may be used already, `now` comes with its far field. False if it has taken the place
+  /// of the last moment, which was too near in time.
+  bool remember(Moment<D>&& now);
   void before_removal(const Jet<D>& jet, double Q);
   void after_release(const Jet<D>& jet, double Q);
 

@@ -57,21 +57,25 @@ bool TwoRateMotion<D>::at_node(const Jet<D>& jet, double t, const Table<D>& y, c
       slope = *known;
     return !known;
   }
-  full_(jet, t, y, slope);
-  ++full_evaluations_;
+  const bool is_full = known && !continues;  // a stage has just found it by a full evaluation
+  if (is_full) {
+    slope = *known;
+  } else {
+    full_(jet, t, y, slope);
+    ++full_evaluations_;
+  }
   Moment<D> now(t, full_.chain(), jet, full_.coulomb()->field(), slope, Q());
+  double interval = since;
   if (continues) {
     now.set_far();
     const double error = mismatch(jet, t, y, now) * since;
     // a slow bead gains this error over and over on its whole way, while most steps err on the youngest bead
     // only
     constexpr double aim = 0.02, order = 4;
-    interval_ = since * std::clamp(std::pow(aim / std::max(error, 1e-10), 1 / order), 0.3, 1.5);
-  } else {
-    interval_ = since;
+    interval *= std::clamp(std::pow(aim / std::max(error, 1e-10), 1 / order), 0.3, 1.5);
   }
-  moments_.remember(std::move(now));
-  return true;
+  if (moments_.remember(std::move(now))) interval_ = interval;
+  return !is_full;
 }
 
 template <int D>

@@ -20,8 +20,9 @@
 /// A full evaluation is made at an accepted point of the solution once the interval since the last one is
 /// over. There the continued values meet the true ones: their difference times the interval, in the norm of
 /// the step control, is the error of the method, of fourth order in the interval, and sets the next interval.
-/// So beads that come close in space, though far along the chain, shorten the interval. Source: multiple time
-/// stepping.
+/// So beads that come close in space, though far along the chain, shorten the interval. No step is longer
+/// than the interval: what it continues ends less than two of them after the last full evaluation. Source:
+/// multiple time stepping.
 
 #include "core/error_norm.hpp"
 #include "forces/equations_of_motion.hpp"
@@ -73,7 +74,7 @@ class TwoRateMotion final : public Motion<D> {
   EquationsOfMotion<D>& full_;
   ErrorNorm norm_;
   Moments<D> moments_;
-  double interval_ = 0;  ///< how far the moments may be continued
+  double interval_ = 0;  ///< from a moment to the next node that is one, and the longest step
   std::int64_t full_evaluations_ = 0;
 
   Followed<D> followed_{{}, {}, followed_old};

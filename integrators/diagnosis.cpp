@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace treejet {
 
@@ -24,15 +26,6 @@ std::string likely_cause(const Table<D>& before, Eigen::Index bead) {
          "timestep";
 }
 
-/// About the length of the element between the youngest bead and the nozzle, which may circle: the greater of
-/// the element before it and the way from the middle of the circle.
-template <int D>
-double youngest_element(const Table<D>& y) {
-  const Eigen::Index youngest = y.rows() - 1;
-  const Vec<D> r = position<D>(y, youngest);
-  return youngest == 0 ? r.norm() : std::max(r.norm(), (r - position<D>(y, youngest - 1)).norm());
-}
-
 }  // namespace
 
 template <int D>
@@ -47,7 +40,8 @@ std::optional<std::string> not_finite(const Table<D>& before, const Table<D>& y,
 }
 
 template <int D>
-std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, std::int64_t removed) {
+std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, double l_step,
+                                   std::int64_t removed) {
   if (auto what = not_finite<D>(before, y, removed)) return what;
   if constexpr (D == 1) {
     for (Eigen::Index i = 0; i + 1 < y.rows(); ++i) {
@@ -68,7 +62,9 @@ std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, st
                          "the time step is too large, or the beads have met");
     }
     const Eigen::Index youngest = y.rows() - 1;
-    if (y.rows() > 0 && before(youngest, 0) > 0 && y(youngest, 0) < -youngest_element<D>(before)) {
+    // released by a nozzle that circles wide, a bead may start near the middle of the circle
+    const auto behind = [&] { return -std::max(l_step, position<D>(before, youngest).norm()); };
+    if (y.rows() > 0 && before(youngest, 0) > 0 && y(youngest, 0) < behind()) {
       return fmt::format(
           "bead {} has been thrown behind the nozzle; likely cause: the time step is too large", youngest);
     }
@@ -78,7 +74,7 @@ std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, st
 
 template std::optional<std::string> not_finite<1>(const Table<1>&, const Table<1>&, std::int64_t);
 template std::optional<std::string> not_finite<3>(const Table<3>&, const Table<3>&, std::int64_t);
-template std::optional<std::string> trouble<1>(const Table<1>&, const Table<1>&, std::int64_t);
-template std::optional<std::string> trouble<3>(const Table<3>&, const Table<3>&, std::int64_t);
+template std::optional<std::string> trouble<1>(const Table<1>&, const Table<1>&, double, std::int64_t);
+template std::optional<std::string> trouble<3>(const Table<3>&, const Table<3>&, double, std::int64_t);
 
 }  // namespace treejet

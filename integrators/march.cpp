@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -119,14 +120,16 @@ void March<D>::give_up() const {
 template <int D>
 double March<D>::attempt(double end) {
   while (true) {
-    double h = std::min(parts_.control.proposal(now_.t, end), parts_.motion.longest_step());
+    const double longest = parts_.motion.longest_step();
+    double h = std::min(parts_.control.proposal(now_.t, end), longest);
     bool aimed = false;
     if (aims()) {
       // steps of one length up to the event
       constexpr double stretch = 1.1, steps = 4;
-      const double horizon = steps * stretch * h, ahead = forecast_.next_event(parts_.jet, now_, horizon);
+      const double most = std::min(stretch * h, longest), horizon = steps * most;
+      const double ahead = forecast_.next_event(parts_.jet, now_, horizon);
       if (ahead < horizon) {
-        const double n = std::max(std::ceil(ahead / (stretch * h)), 1.0);
+        const double n = std::max(std::ceil(ahead / most), 1.0);
         aimed = n == 1;
         h = ahead / n;
       }
@@ -164,7 +167,7 @@ bool March<D>::to(double end) {
   while (now_.t < end && now_.y.rows() > 0) {
     if (parts_.pause && parts_.pause()) return false;
     const double reach = attempt(end);
-    halt_if(trouble<D>(now_.y, next_.y, parts_.holding.before(parts_.jet)), next_.t);
+    halt_if(trouble<D>(now_.y, next_.y, parts_.nozzle.l_step(), parts_.holding.before(parts_.jet)), next_.t);
     evaluate(next_, parts_.stepper.slope_at_end());
     if (parts_.events == EventRule::step) {
       commit(std::nullopt);

@@ -6,7 +6,7 @@
 /// By tolerance: a step stands if its local error, core/error_norm.hpp over the tolerance, is at most 1; the
 /// next one is h * 0.9 * error^-alpha * previous_error^beta (proportional-integral control). After an event
 /// beads are pushed in another way than before, and events repeat: the step there is what the last first step
-/// after an event of this kind would have been allowed.
+/// after an event of this kind would have been allowed; after the first of its kind it is half the last step.
 /// Source of the controller: Hairer, Norsett, Wanner, "Solving ODEs I", II.4; Gustafsson (1991).
 
 #include <algorithm>
@@ -70,7 +70,9 @@ class AdaptiveStep final : public StepControl {
     if (h >= 0.5 * h_ || factor * h > h_) {
       h_ = h * factor;
       previous_error_ = std::max(e, 1e-4);
-      if (after_) learn(first_step_after(*after_));
+      // little longer than the last time: what is rejected now is not tried again at once
+      if (double* const first = after_ ? &first_[kind(*after_)] : nullptr)
+        *first = *first > 0 ? std::min(h_, 1.1 * *first) : h_;
     }
     rejected_ = false;
     after_.reset();
@@ -79,19 +81,16 @@ class AdaptiveStep final : public StepControl {
 
   bool steps_to_events() const override { return true; }
 
-  void event(EventKind kind) override {
-    after_ = kind;
-    const double first = first_step_after(kind);
+  void event(EventKind event) override {
+    after_ = event;
+    const double first = first_[kind(event)];
     h_ = first > 0 ? first : h_ / 2;
   }
 
   void visit(Archive& state) override { state(h_, previous_error_, rejected_, after_, first_); }
 
  private:
-  /// The next first step after an event is h_, but little longer than the last: what is rejected now is not
-  /// tried again at once.
-  void learn(double& first) const { first = first > 0 ? std::min(h_, 1.1 * first) : h_; }
-  double& first_step_after(EventKind kind) { return first_[static_cast<std::size_t>(kind)]; }
+  static std::size_t kind(EventKind event) { return static_cast<std::size_t>(event); }
 
   double h_;
   int order_;

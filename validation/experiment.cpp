@@ -29,9 +29,11 @@ class Limited final : public Motion<D> {
   }
   bool at_node(const Jet<D>& jet, double t, const Table<D>& y, const Table<D>* known,
                Table<D>& slope) override {
-    count();
-    return motion_.at_node(jet, t, y, known, slope);
+    const bool evaluated = motion_.at_node(jet, t, y, known, slope);
+    if (evaluated) count();
+    return evaluated;
   }
+  double longest_step() const override { return motion_.longest_step(); }
   void differentiate(const Jet<D>& jet, double t, const Table<D>& y, LocalJacobian<D>& J) override {
     motion_.differentiate(jet, t, y, J);
   }

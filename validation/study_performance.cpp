@@ -54,7 +54,7 @@ void study_performance(Report& report) {
       {"Paper: processor time per bead and step",
        "The paper's table for fixed steps of 1e-8 s, beside times on this machine, one thread, every term at "
        "every stage. Its case 3 ran on four cores, wall-clock time. It needs 5e7 such steps for case 3; by "
-       "error control 52,000 do.",
+       "error control 40,000 do.",
        "treejet-validate paper --out DIR"});
   auto table = report.table("performance", "Time per bead and step",
                             {"case", "scheme", "beads", "evaluations per step", "time here [s]",

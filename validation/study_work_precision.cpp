@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forces/moments.hpp"
 #include "integrators/choice.hpp"
 #include "validation/experiment.hpp"
 #include "validation/studies.hpp"
@@ -91,7 +92,7 @@ class WorkPrecision {
     }
     for (const Scheme s : {Scheme::dopri5, Scheme::verner6}) {
       adaptive(c, reference, s, Multirate::no);
-      if (oldest.position.rows() > 64) adaptive(c, reference, s, Multirate::automatic);
+      if (oldest.position.rows() > followed_beads) adaptive(c, reference, s, Multirate::automatic);
     }
   }
 

@@ -1,6 +1,7 @@
 /// How long steps are: what is learnt from one event to the next of its kind.
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "integrators/rhythm.hpp"
 #include "integrators/step_control.hpp"

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "validation/run.hpp"
 
@@ -75,7 +76,8 @@ TEST_CASE("At a remembered moment the continued slopes are the full ones") {
   CHECK((continued - expected).abs().maxCoeff() < 1e-11 * expected.abs().maxCoeff());
 }
 
-TEST_CASE("No step goes farther beyond the moments than their continuation has proved to be true") {
+TEST_CASE(
+    "The longest step of two rates is the interval for which their continuation has proved to be true") {
   Run<3> run(with_tolerance(example("pvp"), 1e-6));
   run.to(0.006);
   Jet<3> jet = run.jet();
@@ -95,6 +97,21 @@ TEST_CASE("No step goes farther beyond the moments than their continuation has p
     jet.t += spacing;
     jet.y += spacing * slope;
   }
+}
+
+TEST_CASE("A release that a step has overshot leaves the interval of two rates as it was") {
+  const Parameters p = example("pvp", {"points 43", "initial length 1."});
+  Run<3> run(p);
+  Jet<3> jet = run.jet();
+  REQUIRE(jet.size() == followed_beads - 1);
+  jet.held = true;
+  TwoRateMotion<3> two(*run.scene.motion, ErrorNorm(p));
+  Table<3> slope;
+  for (double t : {0.0, 1e-3, 2.5e-3, 2e-3}) two.at_node(jet, t, jet.y, nullptr, slope);
+  run.scene.nozzle.release(jet);
+  two.after_release(jet);
+  two.at_node(jet, 2e-3, jet.y, nullptr, slope);
+  CHECK(two.longest_step() == Approx(1.5e-3).epsilon(1e-12));
 }
 
 TEST_CASE("A release and a removal leave the continued slopes true") {
