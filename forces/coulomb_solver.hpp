@@ -13,9 +13,10 @@
 /// summation, with an allowance for the spread between leaves, stay below the accuracy. A sample speaks for
 /// all because cells are made to err alike (cells.hpp): with one opening for all, a few where points crowd
 /// hold most of the error. The measurement is repeated when the number of points has changed by a twentieth,
-/// and so often that it takes 4 % of the work; if it fails, the opening is narrowed, or if that does not help
-/// the shape is chosen anew, as it is when the number of points has changed by half. If no shape is accurate
-/// enough, or none is expected to be faster, the sum is direct, and the report says so.
+/// and so often that it takes measuring_share (tree_upkeep.hpp) of the work; if it fails, the opening is
+/// narrowed, or if that does not help the shape is chosen anew, as it is when the number of points has
+/// changed by half. If no shape is accurate enough, or none is expected to be faster, the sum is direct, and
+/// the report says so.
 ///
 /// All decisions follow from the points, the count of evaluations and counted work, never from a clock: the
 /// same calls give the same bits on any number of threads and ranks.
@@ -47,7 +48,7 @@ struct CoulombRequest {
   std::optional<bool> space = {};          ///< order in space, or that of the chain
   bool local_expansions = true;            ///< false: Barnes-Hut, with the same search for opening and order
   bool points_move = false;                ///< the accuracy is to hold between measurements
-  std::optional<int> measured_every = {};  ///< evaluations; without it, as takes 4 % of the work
+  std::optional<int> measured_every = {};  ///< evaluations; without it, as takes measuring_share of the work
 };
 
 /// InputError for an accuracy that is not positive or a pinned value out of range.

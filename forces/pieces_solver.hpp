@@ -8,8 +8,8 @@
 /// `accuracy` is the relative L2 error of the field over all pieces. It is measured, not assumed: at sampled
 /// leaves of all pieces against exact sums, to which every rank adds what its own points do, with the same
 /// allowances as in coulomb_solver.hpp; again when the number of points has changed by a twentieth or the
-/// chain has been cut anew, and so often that it takes 4 % of the work. All ranks learn the same figures and
-/// take the same decisions, none of them from a clock.
+/// chain has been cut anew, and so often that it takes measuring_share (tree_upkeep.hpp) of the work. All
+/// ranks learn the same figures and take the same decisions, none of them from a clock.
 ///
 /// Below the crossover, or where no tree is as accurate, the sum is direct: every rank is then sent all
 /// points. Left out: near fields in single precision, Barnes-Hut.

@@ -49,21 +49,12 @@ bool TwoRateMotion<D>::at_node(const Jet<D>& jet, double t, const Table<D>& y, c
   const double since = moments_.since(t);
   const bool continues = moments_.continuable(y.rows());
   if (continues && since < interval_) {
-    if (!known)
-      continued(jet, t, y, slope);
-    else if (known->rows() < y.rows())
-      continue_middle(jet, t, y, *known, slope);
-    else
-      slope = *known;
+    known ? continue_middle(jet, t, y, *known, slope) : continued(jet, t, y, slope);
     return !known;
   }
-  const bool is_full = known && !continues;  // a stage has just found it by a full evaluation
-  if (is_full) {
-    slope = *known;
-  } else {
-    full_(jet, t, y, slope);
-    ++full_evaluations_;
-  }
+  // what a stage found is full where nothing is continued yet
+  const bool evaluated = full_.at_node(jet, t, y, continues ? nullptr : known, slope);
+  full_evaluations_ += evaluated;
   Moment<D> now(t, full_.chain(), jet, full_.coulomb()->field(), slope, Q());
   double interval = since;
   if (continues) {
@@ -75,7 +66,7 @@ bool TwoRateMotion<D>::at_node(const Jet<D>& jet, double t, const Table<D>& y, c
     interval *= std::clamp(std::pow(aim / std::max(error, 1e-10), 1 / order), 0.3, 1.5);
   }
   if (moments_.remember(std::move(now))) interval_ = interval;
-  return !is_full;
+  return evaluated;
 }
 
 template <int D>

@@ -62,9 +62,10 @@ std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, do
                          "the time step is too large, or the beads have met");
     }
     const Eigen::Index youngest = y.rows() - 1;
+    if (youngest < 0) return std::nullopt;
     // released by a nozzle that circles wide, a bead may start near the middle of the circle
-    const auto behind = [&] { return -std::max(l_step, position<D>(before, youngest).norm()); };
-    if (y.rows() > 0 && before(youngest, 0) > 0 && y(youngest, 0) < behind()) {
+    const double behind = -std::max(l_step, position<D>(before, youngest).norm());
+    if (before(youngest, 0) > 0 && y(youngest, 0) < behind) {
       return fmt::format(
           "bead {} has been thrown behind the nozzle; likely cause: the time step is too large", youngest);
     }

@@ -14,7 +14,8 @@ template <int D>
 std::optional<std::string> not_finite(const Table<D>& before, const Table<D>& y, std::int64_t removed);
 
 /// The same for a new state, whose beads must be in order, too: in one dimension along x, in three without an
-/// element that has turned by more than a right angle within the step.
+/// element that has turned by more than a right angle within the step, and the youngest not thrown behind the
+/// nozzle by more than an element, l_step scaled.
 template <int D>
 std::optional<std::string> trouble(const Table<D>& before, const Table<D>& y, double l_step,
                                    std::int64_t removed);

@@ -36,16 +36,18 @@ double Forecast<D>::time_to(bool insertion, const Jet<D>& jet, const Node<D>& no
 }
 
 template <int D>
-void Forecast<D>::step(const Segment<D>& segment) {
+void Forecast<D>::segment(const Jet<D>&, const Segment<D>& segment) {
   youngest_jerk_ = segment.jerk_at_end(segment.first().rows() - 1);
   oldest_jerk_ = segment.jerk_at_end(0);
 }
 
 template <int D>
-void Forecast<D>::insertion(const Jet<D>& jet) {
-  rhythm_.insertion(jet.held, jet.t);
+void Forecast<D>::event(EventKind kind, const Jet<D>& jet) {
+  if (kind == EventKind::removal) return oldest_jerk_.reset();
+  const bool release = kind == EventKind::release;
+  rhythm_.insertion(release, jet.t);
   // a held bead's charge rises slowly at first: at a placement the jerk of the youngest bead goes on
-  if (jet.held) youngest_jerk_.reset();
+  if (release) youngest_jerk_.reset();
 }
 
 template class Forecast<1>;

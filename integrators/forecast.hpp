@@ -9,26 +9,22 @@
 
 #include "core/collector.hpp"
 #include "core/nozzle.hpp"
-#include "core/segment.hpp"
+#include "core/watcher.hpp"
 #include "integrators/rhythm.hpp"
 
 namespace treejet {
 
 template <int D>
-class Forecast {
+class Forecast final : public Watcher<D> {
  public:
   Forecast(const Nozzle<D>& nozzle, const Collector& collector) : nozzle_(nozzle), collector_(collector) {}
 
   /// Time from `now` to the next event, at most `horizon`.
   double next_event(const Jet<D>& jet, const Node<D>& now, double horizon) const;
 
-  /// A step has led to the end of the segment.
-  void step(const Segment<D>& segment);
-  /// The next insertion event is about to be carried out; the oldest bead has been removed.
-  void insertion(const Jet<D>& jet);
-  void removal() { oldest_jerk_.reset(); }
-
-  void visit(Archive& state) { state(rhythm_, youngest_jerk_, oldest_jerk_); }
+  void segment(const Jet<D>& jet, const Segment<D>& segment) override;
+  void event(EventKind kind, const Jet<D>& jet) override;
+  void visit(Archive& state) override { state(rhythm_, youngest_jerk_, oldest_jerk_); }
 
  private:
   double time_to(bool insertion, const Jet<D>& jet, const Node<D>& now, double horizon) const;

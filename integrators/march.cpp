@@ -210,7 +210,7 @@ void March<D>::commit(std::optional<Due> due) {
   Segment<D> segment(now_, next_);
   if (due) segment.until = due->t;
   for (auto* w : parts_.watchers) w->segment(parts_.jet, segment);
-  if (aims()) forecast_.step(segment);
+  if (aims()) forecast_.segment(parts_.jet, segment);
   if (due) {
     parts_.jet.t = due->t;
     parts_.jet.y = segment.at(due->t);
@@ -223,10 +223,17 @@ void March<D>::commit(std::optional<Due> due) {
   }
 }
 
+/// To all who learn from events, when the jet is as watchers are to see it.
+template <int D>
+void March<D>::announce(EventKind kind) {
+  parts_.control.event(kind);
+  forecast_.event(kind, parts_.jet);
+  for (auto* w : parts_.watchers) w->event(kind, parts_.jet);
+}
+
 template <int D>
 void March<D>::insertion() {
   Jet<D>& jet = parts_.jet;
-  forecast_.insertion(jet);
   const EventKind kind = jet.held ? EventKind::release : EventKind::place;
   if (under_way_) parts_.nozzle.check_timely(jet);
   if (jet.held) {
@@ -238,8 +245,7 @@ void March<D>::insertion() {
     parts_.nozzle.place(jet);
     ++effort_.placed;
   }
-  parts_.control.event(kind);
-  for (auto* w : parts_.watchers) w->event(kind, jet);
+  announce(kind);
 }
 
 template <int D>
@@ -251,13 +257,11 @@ void March<D>::removal() {
                     "another could be inserted; likely cause: the time step is too large",
                     jet.t));
   }
-  for (auto* w : parts_.watchers) w->event(EventKind::removal, jet);
+  announce(EventKind::removal);
   parts_.motion.before_removal(jet);
   drop_first<D>(jet);
   parts_.holding.after_removal(jet);
   ++effort_.removed;
-  forecast_.removal();
-  parts_.control.event(EventKind::removal);
 }
 
 template <int D>

@@ -79,6 +79,7 @@ class March {
   std::optional<Due> first_event(const Segment<D>& segment, double reach);
   double zero(bool insertion, const Segment<D>& segment, double a, double b);
   void commit(std::optional<Due> due);
+  void announce(EventKind kind);
   void insertion();
   void removal();
   void settle(const Due& due);

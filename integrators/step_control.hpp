@@ -71,8 +71,10 @@ class AdaptiveStep final : public StepControl {
       h_ = h * factor;
       previous_error_ = std::max(e, 1e-4);
       // little longer than the last time: what is rejected now is not tried again at once
-      if (double* const first = after_ ? &first_[kind(*after_)] : nullptr)
-        *first = *first > 0 ? std::min(h_, 1.1 * *first) : h_;
+      if (after_) {
+        double& first = first_step(*after_);
+        first = first > 0 ? std::min(h_, 1.1 * first) : h_;
+      }
     }
     rejected_ = false;
     after_.reset();
@@ -81,16 +83,16 @@ class AdaptiveStep final : public StepControl {
 
   bool steps_to_events() const override { return true; }
 
-  void event(EventKind event) override {
-    after_ = event;
-    const double first = first_[kind(event)];
+  void event(EventKind kind) override {
+    after_ = kind;
+    const double first = first_step(kind);
     h_ = first > 0 ? first : h_ / 2;
   }
 
   void visit(Archive& state) override { state(h_, previous_error_, rejected_, after_, first_); }
 
  private:
-  static std::size_t kind(EventKind event) { return static_cast<std::size_t>(event); }
+  double& first_step(EventKind kind) { return first_[static_cast<std::size_t>(kind)]; }
 
   double h_;
   int order_;
