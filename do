@@ -81,7 +81,7 @@ case ${1-} in
     say "== treejet run examples/pvp/input.dat --out results/pvp"
     build/release/treejet run examples/pvp/input.dat --out results/pvp --force
     say "== Pictures"
-    /usr/bin/python3 validation/plot_run.py results/pvp
+    /usr/bin/python3 validation/pictures/plot_run.py results/pvp
     ;;
   test)
     # shellcheck disable=SC2086  # lists of words

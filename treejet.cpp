@@ -6,25 +6,25 @@
 #include <cstdio>
 #include <iostream>
 
-#include "core/command_line.hpp"
-#include "core/convert.hpp"
-#include "core/deck.hpp"
-#include "core/error.hpp"
-#include "core/file_info.hpp"
-#include "core/provenance.hpp"
-#include "core/resumption.hpp"
-#include "forces/coulomb.hpp"
-#include "forces/coulomb_request.hpp"
-#include "forces/field_command.hpp"
-#include "forces/scene_description.hpp"
-#include "integrators/choice.hpp"
-#include "integrators/simulation.hpp"
-#include "integrators/trial_run.hpp"
+#include "core/base/error.hpp"
+#include "core/commands/command_line.hpp"
+#include "core/commands/convert.hpp"
+#include "core/commands/file_info.hpp"
+#include "core/deck/deck.hpp"
+#include "core/io/provenance.hpp"
+#include "core/restart/resume.hpp"
+#include "forces/coulomb/command/field_command.hpp"
+#include "forces/coulomb/coulomb.hpp"
+#include "forces/scene/coulomb_settings.hpp"
+#include "forces/scene/scene_description.hpp"
+#include "integrators/run/simulation.hpp"
+#include "integrators/run/trial_run.hpp"
+#include "integrators/schemes/scheme_registry.hpp"
 
 namespace treejet {
 
 std::string version_text() {
-  return program(provenance({}, vector_path()));
+  return program(provenance({}, isa_name()));
 }
 
 /// "2 ranks, 4 threads each".
@@ -47,25 +47,26 @@ OutputFile::Existing existing(const Arguments& a) {
 
 template <int D>
 int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* checkpoint) {
-  const Provenance made_by = provenance(deck, vector_path());
+  const Provenance made_by = provenance(deck, isa_name());
   ranks.require_same(program(made_by), deck_description(deck.name, deck.text, deck.overrides));
   const Parameters& p = deck.parameters;
   const Threads each = threads(a, ranks);
   const std::string directory = checkpoint ? a.resume : a.out;
   // ranks meet signals at different steps and have clocks of their own: the first one's clock counts, and all
   // follow the strongest wish
-  std::optional<Interruption> interruption;
+  std::optional<StopSignals> stop_signals;
   if (p.parallel == ParallelData::replicated)
-    interruption.emplace(ranks.first() ? Interruption::Setting{p.checkpoint, a.walltime}
-                                       : Interruption::Setting{});
+    stop_signals.emplace(ranks.first() ? StopSignals::Setting{p.checkpoint, a.walltime}
+                                       : StopSignals::Setting{});
   else if (a.walltime)
     throw InputError("--walltime needs a checkpoint, and parallel distributed writes none");
-  const auto wish = [&] {
-    return interruption ? Wish{ranks.greatest(static_cast<int>(interruption->wish()))} : Wish::go_on;
+  const auto stop_request = [&] {
+    return stop_signals ? StopRequest{ranks.greatest(static_cast<int>(stop_signals->stop_request()))}
+                        : StopRequest::go_on;
   };
   Scene<D> scene = compose<D>(p, each, ranks);
   Simulation<D> simulation(
-      deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector, scene.holding()},
+      deck, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector, scene.decomposition()},
       {{directory,
         existing(a),
         a.quiet,
@@ -73,7 +74,7 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* ch
         made_by,
         {ranks.size(), each.count},
         scene.force_error()},
-       wish,
+       stop_request,
        checkpoint});
   if (!a.quiet) {
     fmt::print("{}\n{}\n{}{}", program(made_by), deck.name, notes(deck),
@@ -86,7 +87,7 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* ch
     ranks.greatest(stopped_early);  // no rank ends before the first one has written the checkpoint
     if (ranks.first())
       fmt::print(stderr, "treejet: stopped at t = {:.6g} s by {}; to go on: treejet run --resume {}\n",
-                 simulation.t(), interruption->reason(), directory);
+                 simulation.t(), stop_signals->reason(), directory);
     return stopped_early;
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -117,8 +118,9 @@ void check(const Deck& deck) {
   std::fflush(stdout);
   constexpr double trial_seconds = 1;
   const Trial trial = trial_run<D>(
-      p, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector, scene.holding()}, trial_seconds);
-  const bool all_pairs = !scene.two_rates && p.coulomb == CoulombSum::direct && !p.cutoff;
+      p, {scene.jet, scene.right_hand_side(), scene.nozzle, scene.collector, scene.decomposition()},
+      trial_seconds);
+  const bool all_pairs = !scene.multirate && p.coulomb == CoulombSum::direct && !p.cutoff;
   fmt::print("{}", plan_description(p, trial, all_pairs));
 }
 

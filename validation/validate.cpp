@@ -8,14 +8,14 @@
 #include <fstream>
 #include <numeric>
 
-#include "core/error.hpp"
-#include "core/progress.hpp"
-#include "core/version.hpp"
-#include "forces/coulomb.hpp"
-#include "validation/distributed_run.hpp"
-#include "validation/machine.hpp"
-#include "validation/scaling_run.hpp"
-#include "validation/studies.hpp"
+#include "core/base/error.hpp"
+#include "core/base/version.hpp"
+#include "core/observe/progress.hpp"
+#include "forces/coulomb/coulomb.hpp"
+#include "validation/support/distributed_run.hpp"
+#include "validation/support/machine.hpp"
+#include "validation/support/scaling_run.hpp"
+#include "validation/support/studies.hpp"
 
 namespace {
 
@@ -70,7 +70,7 @@ void write_provenance(const std::filesystem::path& directory, const std::string&
   std::ofstream file(directory / "provenance.txt");
   const auto v = treejet::version();
   file << fmt::format("treejet {} (git {}), {}, {} build, {} vectors\n", v.number, v.commit, v.compiler,
-                      v.build, treejet::vector_path());
+                      v.build, treejet::isa_name());
   file << fmt::format("{}, {} cores\n", treejet::processor_name(), treejet::physical_cores());
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   file << fmt::format("{}, {:%Y-%m-%d %H:%M} UTC\n", command, fmt::gmtime(now));
@@ -80,9 +80,9 @@ void write_provenance(const std::filesystem::path& directory, const std::string&
 /// Draws the pictures and writes the page.
 bool publish(const std::string& directory) {
   std::fflush(stdout);
-  return std::system(
-             fmt::format("/usr/bin/python3 '{}/validation/report.py' '{}'", TREEJET_SOURCE_DIR, directory)
-                 .c_str()) == 0;
+  return std::system(fmt::format("/usr/bin/python3 '{}/validation/pictures/report.py' '{}'",
+                                 TREEJET_SOURCE_DIR, directory)
+                         .c_str()) == 0;
 }
 
 /// A study that breaks off is a claim that does not hold; the others go on.

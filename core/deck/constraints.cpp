@@ -1,0 +1,192 @@
+#include "core/deck/constraints.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "core/jet/stiffness.hpp"
+
+namespace treejet {
+
+namespace {
+
+constexpr double round_off = 1e-9;  ///< relative: a third of 0.02 typed with ten digits is a third
+constexpr double most_elements = 1e8;
+
+class Relations {
+ public:
+  Relations(const Place& deck, const std::vector<Given>& given, const Parameters& p, Findings& findings)
+      : deck_(deck), given_(given), p_(p), findings_(findings) {}
+
+  void check() {
+    time();
+    initial_jet();
+    perturbation();
+    coulomb_sum();
+    fluid();
+    output();
+    pieces();
+  }
+
+ private:
+  void time() {
+    const bool adaptive = p_.integrator == Scheme::automatic || p_.integrator == Scheme::dopri5 ||
+                          p_.integrator == Scheme::verner6 || p_.integrator == Scheme::kencarp5;
+    const double timestep = p_.timestep.value_or(0);
+    error(is_given("timestep") && !is_given("tolerance") && adaptive, {"integrator", "timestep"},
+          "timestep needs integrator 1 (euler), 2 (heun) or 3 (rk4); auto, dopri5, verner6 and kencarp5 "
+          "choose the step "
+          "themselves and go with tolerance");
+    error(
+        is_given("tolerance") && !is_given("timestep") && !adaptive, {"integrator", "tolerance"},
+        "tolerance needs integrator auto, dopri5, verner6 or kencarp5; euler, heun and rk4 go with timestep");
+    error(timestep >= p_.final_time, {"timestep", "final time"},
+          fmt::format("expected less than final time ({} s)", p_.final_time));
+    error(p_.print_time.value_or(0) > p_.final_time, {"print time", "final time"},
+          fmt::format("expected at most final time ({} s)", p_.final_time));
+  }
+
+  void initial_jet() {
+    const double length = p_.initial_length, radius = p_.nozzle_cross;
+    if (length >= p_.collector_distance)
+      return error(true, {"initial length", "collector distance"},
+                   fmt::format("expected less than collector distance ({} cm)", p_.collector_distance));
+    if (p_.resolution && !divides(*p_.resolution)) return;
+    const bool as_points = is_given("points"), as_resolution = is_given("resolution");
+    if (as_points == as_resolution) return;
+    const std::string_view division = as_points ? "points" : "resolution";
+    const double l_step = as_points ? length / p_.points.value_or(1) : p_.resolution.value_or(length);
+    note(l_step < radius * (1 - round_off), division,
+         fmt::format(
+             "elements ({:.6g} cm) are shorter than nozzle cross ({} cm); the model takes them for slender, "
+             "and JETSPIN refuses them",
+             l_step, radius));
+    const double first_distance = std::hypot(1.0, p_.perturb_amplitude / l_step);
+    note(p_.inserting && p_.perturb && first_distance >= 2, "perturb ampl",
+         fmt::format("the nozzle begins {:.3g} elements from the bead next to it, and lets one go at once",
+                     first_distance));
+    error(p_.inserting && p_.collector_distance <= 2 * l_step,
+          {"inserting", "collector distance", "initial length", division},
+          fmt::format(
+              "expected a collector distance above two elements ({:.6g} cm): a bead is released when its "
+              "predecessor is that far away",
+              2 * l_step));
+  }
+
+  bool divides(double resolution) {
+    const double elements = p_.initial_length / resolution, fewer = std::floor(elements);
+    if (elements > most_elements) {
+      error(true, {"resolution", "initial length"},
+            fmt::format("expected at most {:.0e} elements", most_elements));
+      return false;
+    }
+    if (std::abs(elements - std::round(elements)) <= round_off * elements) return true;
+    const std::string longer = fewer > 0 ? fmt::format("{:.10g} or ", p_.initial_length / fewer) : "";
+    error(true, {"resolution", "initial length"},
+          fmt::format("expected a divisor of initial length ({} cm); did you mean {}{:.10g}?",
+                      p_.initial_length, longer, p_.initial_length / (fewer + 1)));
+    return false;
+  }
+
+  void coulomb_sum() {
+    const bool tree = p_.coulomb != CoulombSum::direct;
+    error(tree && p_.system == 1, {"coulomb", "system"},
+          "expected coulomb direct in system 1, which has no tree");
+    error(tree && p_.cutoff.has_value(), {"coulomb", "cutoff"},
+          "expected no cutoff: the tree sums over all pairs");
+    for (const char* detail : {"coulomb accuracy", "coulomb order", "coulomb opening", "coulomb leaf",
+                               "coulomb tree", "coulomb expansions"})
+      note(!tree && is_given(detail), detail, "no effect without coulomb tree or coulomb auto");
+  }
+
+  void perturbation() {
+    error(p_.perturb && p_.system == 1, {"perturb", "system"},
+          "expected no in system 1: a straight jet does not circle");
+    error(p_.perturb && !is_given("perturb freq"), {"perturb"}, "expected perturb freq to be given, too");
+    error(p_.perturb && !is_given("perturb ampl"), {"perturb"}, "expected perturb ampl to be given, too");
+    error(p_.perturb && p_.perturb_amplitude > p_.initial_length, {"perturb ampl", "initial length"},
+          fmt::format("expected at most initial length ({} cm)", p_.initial_length));
+    for (const char* detail : {"perturb freq", "perturb ampl"})
+      note(!p_.perturb && is_given(detail), detail, "no effect without perturb yes");
+    note(p_.system == 1 && p_.surface_tension > 0, "surface tension", "no effect in system 1");
+  }
+
+  void fluid() {
+    for (const char* detail : {"hbfluid consistency", "hbfluid index"}) {
+      error(p_.hbfluid && !is_given(detail), {"hbfluid"},
+            fmt::format("expected {} to be given, too", detail));
+      error(!p_.hbfluid && is_given(detail), {detail, "hbfluid"}, "expected hbfluid yes to be given, too");
+    }
+  }
+
+  void output() {
+    for (const char* detail : {"print xyz maxnum", "print xyz rescale"})
+      note(!p_.print_xyz && is_given(detail), detail, "no effect without print xyz and an interval");
+    note(is_given("seed"), "seed", "no effect: nothing here is random");
+  }
+
+  /// What a jet held in pieces cannot do.
+  void pieces() {
+    if (p_.parallel == ParallelData::replicated) return;
+    error(p_.system == 1, {"parallel", "system"}, "expected parallel replicated in system 1");
+    error(p_.coulomb == CoulombSum::direct, {"parallel", "coulomb"},
+          "expected coulomb tree or coulomb auto: a direct sum needs all beads on every rank");
+    error(p_.coulomb_expansions == ExpansionKind::none, {"parallel", "coulomb expansions"},
+          "expected coulomb expansions local");
+    error(p_.tolerance && p_.multirate != Multirate::no, {"parallel", "multirate"},
+          "expected multirate no: all forces are evaluated at each stage");
+    error(p_.checkpoint.has_value(), {"parallel", "checkpoint"},
+          "expected no checkpoint: none can be written");
+    if (sound("viscosity") && sound("elastic modulus"))
+      error(chosen_scheme(p_) == Scheme::kencarp5, {"parallel", "integrator"},
+            "expected an explicit integrator: the local terms of a chain in pieces are not solved for");
+    for (const auto* list : {&p_.print_list, &p_.printstat_list})
+      for (const char* key : {"lp", "rlp"})
+        error(std::count(list->begin(), list->end(), key) > 0,
+              {"parallel", list == &p_.print_list ? "print list" : "printstat list"},
+              fmt::format("expected no {} in the lists: the path along the jet is not followed", key));
+  }
+
+  const Given* find(std::string_view words) const { return treejet::find(given_, directive(words)); }
+
+  bool is_given(std::string_view words) const { return find(words) != nullptr; }
+
+  bool sound(std::string_view words) const {
+    const Given* g = find(words);
+    return g ? !g->faulty : !directive(words).mandatory;
+  }
+
+  Finding about(std::string_view words, const std::string& message) const {
+    const Given* g = find(words);
+    if (!g) return {deck_, fmt::format("{}: {}", words, message)};
+    return {g->place, fmt::format("{} {}: {}", words, fmt::join(g->arguments, " "), message)};
+  }
+
+  /// Blames the first of the directives concerned.
+  void error(bool violated, std::initializer_list<std::string_view> directives, const std::string& message) {
+    if (violated &&
+        std::all_of(directives.begin(), directives.end(), [&](auto words) { return sound(words); }))
+      findings_.errors.push_back(about(*directives.begin(), message));
+  }
+
+  void note(bool holds, std::string_view words, const std::string& message) {
+    if (holds && sound(words)) findings_.notes.push_back(about(words, message));
+  }
+
+  const Place& deck_;
+  const std::vector<Given>& given_;
+  const Parameters& p_;
+  Findings& findings_;
+};
+
+}  // namespace
+
+void check_relations(const Place& deck, const std::vector<Given>& given, const Parameters& parameters,
+                     Findings& findings) {
+  Relations(deck, given, parameters, findings).check();
+}
+
+}  // namespace treejet

@@ -1,0 +1,186 @@
+#include "core/deck/directives.hpp"
+
+#include <stdexcept>
+
+namespace treejet {
+
+namespace {
+
+using P = Parameters;
+
+constexpr Check positive{"positive", [](double v) { return v > 0; }};
+constexpr Check not_negative{"zero or positive", [](double v) { return v >= 0; }};
+constexpr Check below_one{"positive and below 1", [](double v) { return v > 0 && v < 1; }};
+constexpr Check one_or_three{"1 (straight jet) or 3 (three dimensions)",
+                             [](double v) { return v == 1 || v == 3; }};
+constexpr Check a_count{"from 1 to 100000000", [](double v) { return v >= 1 && v <= 1e8; }};
+constexpr Check an_order{"from 2 to 14", [](double v) { return v >= 2 && v <= 14; }};
+constexpr Check an_opening{"above 0 and at most 0.9", [](double v) { return v > 0 && v <= 0.9; }};
+constexpr Check a_leaf{"a positive multiple of 16",
+                       [](double v) { return v > 0 && v == 16 * double(int(v / 16)); }};
+
+// clang-format off
+const Directive table[] = {
+    {.words = "system", .member = &P::system, .check = one_or_three,
+     .meaning = "model of the jet: 1 straight along x, 3 in three dimensions",
+     .mandatory = true, .example = "3", .synonyms = "systype", .heading = "Model"},
+    {.words = "units", .member = &P::units,
+     .meaning = "cgs, or real: density charge in C/L and external potential in V, all else in CGS"},
+    {.words = "seed", .member = Ignored{},
+     .meaning = "accepted for JETSPIN's sake: nothing here is random", .absent = "no effect"},
+
+    {.words = "final time", .member = &P::final_time, .unit = "s", .check = positive,
+     .meaning = "end of the simulation", .mandatory = true, .example = "5.d-2", .heading = "Time"},
+    {.words = "tolerance", .member = &P::tolerance, .check = below_one,
+     .meaning = "local error a step may make, scaled; the program chooses the step",
+     .or_else = "timestep", .example = "1.d-6"},
+    {.words = "timestep", .member = &P::timestep, .unit = "s", .check = positive,
+     .meaning = "fixed time step", .or_else = "tolerance"},
+    {.words = "integrator", .member = &P::integrator,
+     .meaning = "1 euler, 2 heun, 3 rk4 with timestep; auto, dopri5, verner6, kencarp5 (for stiff "
+                "scenes, also taken by auto) with tolerance",
+     .absent = "auto; mandatory with timestep"},
+    {.words = "events", .member = &P::events,
+     .meaning = "insertion and removal at their exact time (located) or at the end of a step, as JETSPIN does (step)"},
+    {.words = "multirate", .member = &P::multirate,
+     .meaning = "auto: slow forces are evaluated less often than fast ones; no: all at each stage"},
+
+    {.words = "initial length", .member = &P::initial_length, .unit = "cm", .check = positive,
+     .meaning = "length of the jet at the start", .mandatory = true, .example = "0.02", .heading = "Jet"},
+    {.words = "points", .member = &P::points, .check = a_count,
+     .meaning = "number of elements of the initial jet", .or_else = "resolution", .example = "1"},
+    {.words = "resolution", .member = &P::resolution, .unit = "cm", .check = positive,
+     .meaning = "length of an element; must divide initial length", .or_else = "points"},
+    {.words = "density mass", .member = &P::density_mass, .unit = "g/cm^3", .check = positive,
+     .meaning = "mass density", .mandatory = true, .example = "0.84"},
+    {.words = "density charge", .member = &P::density_charge, .unit = "statC/cm^3", .check = not_negative,
+     .meaning = "charge density", .mandatory = true, .example = "44000."},
+    {.words = "viscosity", .member = &P::viscosity, .unit = "g/(cm s)", .check = positive,
+     .meaning = "viscosity", .mandatory = true, .example = "20."},
+    {.words = "elastic modulus", .member = &P::elastic_modulus, .unit = "g/(cm s^2)", .check = positive,
+     .meaning = "elastic modulus; viscosity / elastic modulus is the relaxation time", .mandatory = true,
+     .example = "50000."},
+    {.words = "surface tension", .member = &P::surface_tension, .unit = "g/s^2", .check = not_negative,
+     .meaning = "surface tension; no effect in system 1", .example = "21.13"},
+    {.words = "yield stress", .member = &P::yield_stress, .unit = "g/(cm s^2)", .check = not_negative,
+     .meaning = "yield stress, added to the viscous stress; acts without hbfluid yes, too"},
+    {.words = "hbfluid", .member = &P::hbfluid,
+     .meaning = "Herschel-Bulkley fluid: needs consistency and index"},
+    {.words = "hbfluid consistency", .member = &P::hb_consistency, .check = positive,
+     .meaning = "its consistency, in units of the viscosity, strain rates in 1/s"},
+    {.words = "hbfluid index", .member = &P::hb_index, .check = positive,
+     .meaning = "its flow index"},
+
+    {.words = "nozzle cross", .member = &P::nozzle_cross, .unit = "cm", .check = positive,
+     .meaning = "radius of the jet at the nozzle", .mandatory = true, .example = "5.d-3",
+     .synonyms = "nozzle cross section", .heading = "Nozzle, collector and field"},
+    {.words = "nozzle velocity", .member = &P::nozzle_velocity, .unit = "cm/s", .check = not_negative,
+     .meaning = "velocity of the fluid at the nozzle", .example = "0.2829"},
+    {.words = "nozzle stress", .member = &P::nozzle_stress, .unit = "g/(cm s^2)",
+     .meaning = "stress of the initial jet"},
+    {.words = "perturb", .member = &P::perturb,
+     .meaning = "the nozzle circles around the axis (system 3): needs freq and ampl", .example = "yes",
+     .synonyms = "perturbation"},
+    {.words = "perturb freq", .member = &P::perturb_frequency, .unit = "rad/s", .check = not_negative,
+     .meaning = "its angular frequency", .example = "1.d+4",
+     .synonyms = "perturb frequency, perturbation freq, perturbation frequency"},
+    {.words = "perturb ampl", .member = &P::perturb_amplitude, .unit = "cm", .check = not_negative,
+     .meaning = "its radius", .example = "1.d-3",
+     .synonyms = "perturb amplitude, perturbation ampl, perturbation amplitude"},
+    {.words = "inserting", .member = &P::inserting, .meaning = "the nozzle releases new beads", .example = "yes"},
+    {.words = "removing", .member = &P::removing, .meaning = "the collector takes beads away", .example = "yes"},
+    {.words = "collector distance", .member = &P::collector_distance, .unit = "cm", .check = positive,
+     .meaning = "distance of the collector from the nozzle", .mandatory = true, .example = "16."},
+    {.words = "external potential", .member = &P::external_potential, .unit = "statV", .check = not_negative,
+     .meaning = "potential between nozzle and collector", .example = "30.02"},
+    {.words = "gravity", .member = &P::gravity, .meaning = "gravity along x", .example = "yes"},
+    {.words = "cutoff", .member = &P::cutoff, .unit = "cm", .check = positive,
+     .meaning = "reach of the Coulomb force along the jet, measured at the nozzle", .absent = "the full sum"},
+
+    {.words = "coulomb", .member = &P::coulomb,
+     .meaning = "Coulomb sum: direct over all pairs; by a tree to the accuracy below; auto: whichever is faster",
+     .heading = "Coulomb sum"},
+    {.words = "coulomb accuracy", .member = &P::coulomb_accuracy, .check = below_one,
+     .meaning = "relative L2 error of the field that the tree may make; it is measured and kept"},
+    {.words = "coulomb order", .member = &P::coulomb_order, .check = an_order,
+     .meaning = "order of the expansions", .absent = "chosen by the program"},
+    {.words = "coulomb opening", .member = &P::coulomb_opening, .check = an_opening,
+     .meaning = "opening of the tree, cell radii over distance, alike for all cells", .absent = "chosen by the program"},
+    {.words = "coulomb leaf", .member = &P::coulomb_leaf, .check = a_leaf,
+     .meaning = "beads in a leaf", .absent = "chosen by the program"},
+    {.words = "coulomb tree", .member = &P::coulomb_tree,
+     .meaning = "order of the beads in the tree: along the chain, or in space"},
+    {.words = "coulomb expansions", .member = &P::coulomb_expansions,
+     .meaning = "local: dual tree with local expansions; none: Barnes and Hut's, cells on beads"},
+
+    {.words = "parallel", .member = &P::parallel,
+     .meaning = "what ranks hold: all of the jet each (replicated), or a piece each (distributed), for 1e6 beads and "
+                "more; needs system 3, coulomb tree or auto, multirate no; no checkpoints, lp or rlp",
+     .heading = "Ranks"},
+
+    {.words = "print time", .member = &P::print_time, .unit = "s", .check = positive,
+     .meaning = "interval of the tables", .absent = "1000 timesteps; a hundredth of final time with tolerance",
+     .example = "1.d-2", .heading = "Output"},
+    {.words = "print list", .member = &P::print_list,
+     .meaning = "keys of the table on the terminal", .absent = "no table", .example = "t x vn vc yz n curn curc"},
+    {.words = "printstat list", .member = &P::printstat_list,
+     .meaning = "keys of the table in the statistics file", .absent = "no file", .example = "t x vn vc yz n rc lp"},
+    {.words = "print xyz", .member = &P::print_xyz, .unit = "s", .check = positive,
+     .meaning = "interval of the frames of the XYZ trajectory", .absent = "no file"},
+    {.words = "print xyz maxnum", .member = &P::xyz_maxnum, .check = a_count,
+     .meaning = "beads in a frame, from the collector on", .synonyms = "print xyz maxnumber"},
+    {.words = "print xyz rescale", .member = &P::xyz_rescale, .check = positive,
+     .meaning = "factor on the coordinates, which are in cm"},
+    {.words = "print hdf5", .member = &P::print_hdf5, .unit = "s", .check = positive,
+     .meaning = "interval of the frames of the HDF5 trajectory (H5MD), for all tools that read HDF5 and for ParaView",
+     .absent = "no file"},
+    {.words = "checkpoint", .member = &P::checkpoint, .unit = "s", .check = positive,
+     .meaning = "wall-clock time between checkpoints, from which `treejet run --resume` continues",
+     .absent = "one when a signal or --walltime stops the run"},
+};
+
+const Foreign foreign_table[] = {
+    {"system 2", "JETSPIN has no working system 2; write system 1 or system 3"},
+    {"system 4", "air drag is not modelled; write system 3 and leave the airdrag lines out"},
+    {"integrator 4", "JETSPIN's stochastic scheme is not modelled; write integrator 1, 2 or 3"},
+    {"cutoff points", "JETSPIN 1.00 took the number for a length in cm; write cutoff and that length, or leave the line "
+                      "out for the full sum"},
+    {"airdrag", "air drag is not modelled; leave the line out"},
+    {"variable mass", "all beads are released with the same mass; leave the line out"},
+    {"variable charge", "all beads are released with the same charge; leave the line out"},
+    {"kvfluid", "the fluid is Maxwell's, or Herschel-Bulkley's with hbfluid; leave the line out"},
+    {"dynamic refinement", "elements are not refined; choose a smaller resolution"},
+    {"restart", "a run starts from its deck; leave the line out"},
+    {"dragvel", "beads are always released with the paper's dragging velocity; leave the line out"},
+    {"primary cutoff", "the Coulomb sum is split by the program, see multirate; leave the line out"},
+    {"maximum displ", "the Coulomb sum is split by the program, see multirate; leave the line out"},
+    {"maximum displacement", "the Coulomb sum is split by the program, see multirate; leave the line out"},
+    {"multiple step", "the Coulomb sum is split by the program; write multirate auto or no"},
+    {"external potential type", "the potential is constant; leave the line out"},
+    {"external potential freq", "the potential is constant; leave the line out"},
+    {"external potential time", "the potential is constant; leave the line out"},
+    {"print binary", "binary trajectories are not written; write print xyz and an interval in s"},
+    {"printstat binary", "binary statistics are not written; write printstat list and its keys"},
+    {"print pdb", "PDB files are not written; write print xyz and an interval in s"},
+    {"print xyz frame", "all frames go to one file; write print xyz and an interval in s"},
+    {"print xyz rescalexyz", "write print xyz rescale and the factor"},
+    {"print rescalexyz", "write print xyz rescale and the factor"},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const Directive> directives() {
+  return table;
+}
+std::span<const Foreign> foreign_directives() {
+  return foreign_table;
+}
+
+const Directive& directive(std::string_view words) {
+  for (const Directive& d : table)
+    if (d.words == words) return d;
+  throw std::logic_error("no directive " + std::string(words));
+}
+
+}  // namespace treejet

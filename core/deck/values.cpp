@@ -1,0 +1,251 @@
+/// Arguments of a directive: words to values and back, one overload for each type a member may have.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/deck/directives.hpp"
+#include "core/deck/number.hpp"
+#include "core/deck/observable_keys.hpp"
+#include "core/deck/suggestion.hpp"
+
+namespace treejet {
+
+namespace {
+
+using Arguments = std::span<const std::string>;
+
+template <class T>
+struct Word {
+  std::string_view word;
+  T value;
+};
+
+// The first word of a value is the one it is printed with.
+constexpr Word<bool> yes_no[] = {{"yes", true}, {"no", false}};
+constexpr Word<Scheme> schemes[] = {{"auto", Scheme::automatic},
+                                    {"euler", Scheme::euler},
+                                    {"heun", Scheme::heun},
+                                    {"rk4", Scheme::rk4},
+                                    {"dopri5", Scheme::dopri5},
+                                    {"verner6", Scheme::verner6},
+                                    {"kencarp5", Scheme::kencarp5},
+                                    {"1", Scheme::euler},
+                                    {"2", Scheme::heun},
+                                    {"3", Scheme::rk4}};
+constexpr Word<EventRule> event_rules[] = {{"located", EventRule::located}, {"step", EventRule::step}};
+constexpr Word<Multirate> multirates[] = {{"auto", Multirate::automatic}, {"no", Multirate::no}};
+constexpr Word<Units> unit_systems[] = {{"cgs", Units::cgs}, {"real", Units::real}};
+constexpr Word<CoulombSum> coulomb_sums[] = {
+    {"direct", CoulombSum::direct}, {"tree", CoulombSum::tree}, {"auto", CoulombSum::automatic}};
+constexpr Word<TreeOrder> tree_orders[] = {
+    {"auto", TreeOrder::automatic}, {"chain", TreeOrder::chain}, {"space", TreeOrder::space}};
+constexpr Word<ExpansionKind> expansions[] = {{"local", ExpansionKind::local}, {"none", ExpansionKind::none}};
+constexpr Word<ParallelData> parallel_data[] = {{"replicated", ParallelData::replicated},
+                                                {"distributed", ParallelData::distributed}};
+
+std::span<const Word<bool>> words_of(bool) {
+  return yes_no;
+}
+std::span<const Word<Scheme>> words_of(Scheme) {
+  return schemes;
+}
+std::span<const Word<EventRule>> words_of(EventRule) {
+  return event_rules;
+}
+std::span<const Word<Multirate>> words_of(Multirate) {
+  return multirates;
+}
+std::span<const Word<Units>> words_of(Units) {
+  return unit_systems;
+}
+std::span<const Word<CoulombSum>> words_of(CoulombSum) {
+  return coulomb_sums;
+}
+std::span<const Word<TreeOrder>> words_of(TreeOrder) {
+  return tree_orders;
+}
+std::span<const Word<ExpansionKind>> words_of(ExpansionKind) {
+  return expansions;
+}
+std::span<const Word<ParallelData>> words_of(ParallelData) {
+  return parallel_data;
+}
+
+template <class T>
+std::vector<std::string_view> known_words(T choice) {
+  std::vector<std::string_view> known;
+  for (const auto& w : words_of(choice)) known.push_back(w.word);
+  return known;
+}
+
+std::vector<std::string_view> known_keys() {
+  std::vector<std::string_view> keys;
+  for (const ObservableKey& k : observable_keys) keys.push_back(k.key);
+  return keys;
+}
+
+std::string found(Arguments arguments) {
+  return "found " + (arguments.empty() ? "nothing" : quoted(fmt::format("{}", fmt::join(arguments, " "))));
+}
+
+std::string meant(std::string_view nearest) {
+  return nearest.empty() ? "" : "; did you mean " + std::string(nearest) + "?";
+}
+
+/// What the argument is called in documentation.
+std::string kind(double) {
+  return "real";
+}
+std::string kind(int) {
+  return "integer";
+}
+std::string kind(Ignored) {
+  return "integer";
+}
+std::string kind(const std::vector<std::string>&) {
+  return "keys";
+}
+template <class T>
+std::string kind(const std::optional<T>&) {
+  return kind(T{});
+}
+template <class T>
+std::string kind(T choice) {
+  return fmt::format("{}", fmt::join(known_words(choice), "|"));
+}
+
+std::string expected(const Directive& d) {
+  std::string text = argument(d);
+  if (text == "real") text = "a real number";
+  if (text == "integer") text = "an integer";
+  if (text == "keys") text = "keys of observables";
+  return fmt::format("expected {}{}, ", text, d.unit.empty() ? "" : fmt::format(" ({})", d.unit));
+}
+
+std::string trailing(Arguments arguments) {
+  return fmt::format("expected nothing after {}, {}", arguments[0], found(arguments.subspan(1)));
+}
+
+template <class T>
+std::string read_number(const Directive& d, Arguments arguments, Reading<T> (*reading_of)(std::string_view),
+                        T& target) {
+  if (arguments.empty()) return expected(d) + found(arguments);
+  const Reading<T> reading = reading_of(arguments[0]);
+  if (!reading.problem.empty()) return expected(d) + reading.problem;
+  if (arguments.size() > 1) return trailing(arguments);
+  if (d.check.holds && !d.check.holds(reading.value))
+    return fmt::format("expected a value that is {}, {}", d.check.words, found(arguments));
+  target = reading.value;
+  return {};
+}
+
+std::string read(const Directive& d, Arguments a, double& target) {
+  return read_number(d, a, real_number, target);
+}
+std::string read(const Directive& d, Arguments a, int& target) {
+  return read_number(d, a, integer, target);
+}
+
+std::string read(const Directive& d, Arguments a, Ignored) {
+  int dropped = 0;
+  return read(d, a, dropped);
+}
+
+template <class T>
+std::string read(const Directive& d, Arguments arguments, std::optional<T>& target) {
+  T value{};
+  std::string problem = read(d, arguments, value);
+  if (problem.empty()) target = value;
+  return problem;
+}
+
+std::string read(const Directive& d, Arguments arguments, std::vector<std::string>& target) {
+  if (arguments.empty()) return expected(d) + found(arguments);
+  const std::vector<std::string_view> keys = known_keys();
+  std::vector<std::string> unknown;
+  for (const std::string& key : arguments)
+    if (std::find(keys.begin(), keys.end(), key) == keys.end())
+      unknown.push_back(fmt::format("found {}{}", quoted(key), meant(nearest(key, keys))));
+  if (!unknown.empty())
+    return fmt::format("expected keys of observables, {}; they are {}", fmt::join(unknown, ", "),
+                       fmt::join(keys, " "));
+  target.assign(arguments.begin(), arguments.end());
+  return {};
+}
+
+template <class T>
+std::string read(const Directive& d, Arguments arguments, T& target) {
+  if (arguments.empty()) return expected(d) + found(arguments);
+  for (const auto& w : words_of(T{})) {
+    if (w.word != arguments[0]) continue;
+    if (arguments.size() > 1) return trailing(arguments);
+    target = w.value;
+    return {};
+  }
+  return expected(d) + found(arguments) + meant(nearest(arguments[0], known_words(T{})));
+}
+
+std::string text(double value) {
+  return fmt::format("{}", value);
+}
+std::string text(int value) {
+  return fmt::format("{}", value);
+}
+std::string text(Ignored) {
+  return {};
+}
+std::string text(const std::vector<std::string>& keys) {
+  return fmt::format("{}", fmt::join(keys, " "));
+}
+template <class T>
+std::string text(const std::optional<T>& value) {
+  return value ? text(*value) : "";
+}
+template <class T>
+std::string text(T value) {
+  for (const auto& w : words_of(value))
+    if (w.value == value) return std::string(w.word);
+  return {};
+}
+
+/// f applied to what the member pointer points at in the parameters.
+template <class Params, class F>
+std::string on_member(const Directive& d, Params& parameters, F&& f) {
+  return std::visit(
+      [&](auto member) {
+        if constexpr (std::is_same_v<decltype(member), Ignored>)
+          return f(member);
+        else
+          return f(parameters.*member);
+      },
+      d.member);
+}
+
+}  // namespace
+
+std::string assign(const Directive& d, std::span<const std::string> arguments, Parameters& parameters) {
+  return on_member(d, parameters, [&](auto& member) { return read(d, arguments, member); });
+}
+
+std::string argument(const Directive& d) {
+  return on_member(d, static_cast<const Parameters&>(Parameters{}),
+                   [](const auto& member) { return kind(member); });
+}
+
+std::string value_text(const Directive& d, const Parameters& parameters) {
+  return on_member(d, parameters, [](const auto& member) { return text(member); });
+}
+
+std::vector<std::string> differences(const Parameters& here, const Parameters& there) {
+  const auto said = [](const std::string& value) { return value.empty() ? "nothing" : value; };
+  std::vector<std::string> lines;
+  for (const Directive& d : directives()) {
+    const std::string a = value_text(d, here), b = value_text(d, there);
+    if (a != b) lines.push_back(fmt::format("{}: {} here, {} there", d.words, said(a), said(b)));
+  }
+  return lines;
+}
+
+}  // namespace treejet

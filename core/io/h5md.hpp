@@ -1,0 +1,64 @@
+#pragma once
+/// The layout of traj.h5: H5MD 1.1 (nongnu.org/h5md) with its module for units, in CGS.
+///
+///     /particles/jet/box                         dimension 3, boundary none
+///     /particles/jet/{position,velocity,...}     one element for each of core/io/frame.hpp's columns
+///     /particles/jet/id                          bead number, 0 the nozzle, -1 (the fill value) no point
+///     /observables/<key>                         core/deck/observable_keys.hpp
+///     /parameters                                what made the file, core/io/provenance.hpp
+///
+/// An element is a group of step, time and value. All of the jet share one step and one time by hard links,
+/// and so do all observables; a step counts frames, or rows. The number of points varies: values have as many
+/// columns as the largest frame so far has points, and what is absent is NaN with id -1.
+///
+/// FileError if a file is no H5MD of ours, or cut short.
+
+#include <span>
+
+#include "core/io/frame.hpp"
+#include "core/io/hdf5_file.hpp"
+#include "core/io/provenance.hpp"
+
+namespace treejet {
+
+class H5md {
+ public:
+  struct Content {
+    Provenance made_by;
+    std::vector<std::string> keys;  ///< of the observables
+  };
+  struct Chunk {
+    std::uint64_t frames, points;
+    bool compressed;
+  };
+
+  /// A file without frames.
+  H5md(const std::filesystem::path& path, const Content& content, const Chunk& chunk);
+  /// One that is there already; read or append.
+  H5md(const std::filesystem::path& path, Hdf5File::Access access);
+
+  void append(std::span<const Frame> frames);
+  void append(std::span<const Row> rows);
+  void close() { file_.close(); }
+
+  std::uint64_t frames() const { return frames_; }
+  std::uint64_t rows() const { return rows_; }
+  /// Of the largest frame.
+  std::uint64_t points() const { return points_; }
+  const Content& content() const { return content_; }
+
+  std::vector<Frame> frames(std::uint64_t first, std::uint64_t count) const;
+  std::vector<Row> rows(std::uint64_t first, std::uint64_t count) const;
+
+ private:
+  void describe();
+  void make_elements(const Chunk& chunk);
+  template <class T>
+  void put(const std::string& element, const std::vector<T>& table, Extent size);
+
+  Hdf5File file_;
+  Content content_;
+  std::uint64_t frames_ = 0, rows_ = 0, points_ = 0;
+};
+
+}  // namespace treejet

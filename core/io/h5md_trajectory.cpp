@@ -1,0 +1,182 @@
+#include "core/io/h5md_trajectory.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/io/atomic_file.hpp"
+
+namespace treejet {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// While it grows a frame is a chunk, and not compressed: it is written twice, and a third time in the end.
+constexpr H5md::Chunk growing{1, 256, /*compressed*/ false};
+constexpr std::size_t most_pending = 256;  ///< frames in memory
+constexpr int flush_share = 50;            ///< a flush takes at most this part of the time
+
+/// Whether someone has the file open: HDF5 locks what it reads.
+bool in_use(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return locked;
+}
+
+/// The chunks of the final form, of about 64 kB a component: enough for deflate to work with, little enough
+/// to read for one bead or one frame.
+H5md::Chunk final_chunk(const H5md& file) {
+  constexpr std::uint64_t values = 8192;
+  const auto points = std::clamp<std::uint64_t>(file.points(), 1, values);
+  return {std::clamp<std::uint64_t>(values / points, 1, std::max<std::uint64_t>(file.frames(), 1)), points,
+          true};
+}
+
+}  // namespace
+
+H5mdTrajectory::H5mdTrajectory(const fs::path& path, H5md::Content content, OutputFile::Existing existing)
+    : path_(path), content_(std::move(content)) {
+  if (existing == OutputFile::Existing::resume) return;
+  std::error_code error;
+  if (existing == OutputFile::Existing::keep && fs::exists(path_, error)) throw exists_already(path_);
+  if (!path_.parent_path().empty()) fs::create_directories(path_.parent_path(), error);
+  if (error) throw FileError(fmt::format("{}: {}", path_.parent_path().string(), error.message()));
+  fs::remove(twin(), error);
+  H5md(twin(), content_, growing).close();
+  put_in_place(twin(), path_);
+}
+
+H5mdTrajectory::~H5mdTrajectory() {
+  try {
+    flush();
+  } catch (const std::exception&) {
+    // if it is this file that the run has failed over, it has been told
+  }
+}
+
+fs::path H5mdTrajectory::twin() const {
+  return path_.string() + ".next";
+}
+
+void H5mdTrajectory::append(Frame frame) {
+  frame.step = static_cast<std::int64_t>(frames_++);
+  add_grid(frame);
+  pending_.frames.push_back(std::move(frame));
+  flush_if_due();
+}
+
+void H5mdTrajectory::append(Row row) {
+  row.step = static_cast<std::int64_t>(rows_++);
+  pending_.rows.push_back(std::move(row));
+  flush_if_due();
+}
+
+void H5mdTrajectory::add_grid(const Frame& frame) {
+  points_ = std::max<std::uint64_t>(points_, frame.points());
+  xdmf_.add({frame.time, frame.points()});
+}
+
+void H5mdTrajectory::flush_if_due() {
+  if (Clock::now() >= next_flush_ || pending_.frames.size() >= most_pending) flush();
+}
+
+void H5mdTrajectory::flush() {
+  if (pending_.frames.empty() && pending_.rows.empty()) return;
+  const auto begin = Clock::now();
+  bring_twin_up_to_date();
+  exchange_with_twin();
+  behind_ = std::exchange(pending_, {});
+  write_xdmf();
+  const auto end = Clock::now();
+  next_flush_ = end + flush_share * (end - begin);
+}
+
+void H5mdTrajectory::bring_twin_up_to_date() {
+  std::error_code error;
+  if (!twin_ || in_use(twin())) {
+    fs::remove(twin(), error);
+    fs::copy_file(path_, twin(), error);
+    if (error) throw FileError(fmt::format("{}: cannot be copied: {}", path_.string(), error.message()));
+    behind_ = {};
+    twin_ = true;
+  }
+  H5md file(twin(), Hdf5File::Access::append);
+  for (const Samples* samples : {&behind_, &pending_}) {
+    file.append(samples->frames);
+    file.append(samples->rows);
+  }
+  file.close();
+}
+
+/// At any instant there is a whole file under the name of the trajectory.
+void H5mdTrajectory::exchange_with_twin() {
+  const fs::path old = path_.string() + ".old";
+  std::error_code error;
+  fs::remove(old, error);
+  fs::create_hard_link(path_, old, error);
+  if (error == std::errc::no_such_file_or_directory)
+    throw FileError(fmt::format("{}: has been removed while the run was writing it", path_.string()));
+  twin_ = !error;  // a file system without hard links gets a copy each time
+  put_in_place(twin(), path_);
+  if (twin_) put_in_place(old, twin());
+}
+
+void H5mdTrajectory::write_xdmf() const {
+  write_whole(fs::path(path_).replace_extension(".xdmf"), xdmf_.text(path_.filename().string(), points_));
+}
+
+void H5mdTrajectory::sync() {
+  flush();
+  force_to_disk(path_);
+  force_to_disk(path_.has_parent_path() ? path_.parent_path() : ".");
+}
+
+void H5mdTrajectory::finish() {
+  flush();
+  rewrite(/*final_form*/ true);
+  write_xdmf();
+}
+
+void H5mdTrajectory::continue_from(std::uint64_t frames, std::uint64_t rows) {
+  pending_ = behind_ = {};
+  frames_ = frames;
+  rows_ = rows;
+  rewrite(/*final_form*/ false);
+  write_xdmf();
+}
+
+/// Puts the frames and rows so far, all of which are in the file, into a new one that takes its place.
+void H5mdTrajectory::rewrite(bool final_form) {
+  std::error_code error;
+  fs::remove(twin(), error);
+  twin_ = false;
+  const H5md file(path_, Hdf5File::Access::read);
+  if (file.frames() < frames_ || file.rows() < rows_)
+    throw FileError(fmt::format("{}: expected {} frames and {} rows, found {} and {}", path_.string(),
+                                frames_, rows_, file.frames(), file.rows()));
+  const H5md::Chunk chunk = final_form ? final_chunk(file) : growing;
+  const std::uint64_t at_once =
+      final_form ? chunk.frames : 64;  // whole chunks, so that none is compressed twice
+  H5md fresh(twin(), content_, chunk);
+  xdmf_ = {};
+  points_ = 0;
+  for (std::uint64_t i = 0; i < frames_; i += at_once) {
+    const std::vector<Frame> frames = file.frames(i, std::min(at_once, frames_ - i));
+    for (const Frame& f : frames) add_grid(f);
+    fresh.append(frames);
+  }
+  fresh.append(file.rows(0, rows_));
+  fresh.close();
+  put_in_place(twin(), path_);
+}
+
+}  // namespace treejet

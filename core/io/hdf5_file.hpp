@@ -1,0 +1,88 @@
+#pragma once
+/// An HDF5 file: the only place that knows the HDF5 library.
+///
+/// Objects are named by their full path, "/particles/jet/position/value". Datasets hold doubles or 64-bit
+/// integers, are chunked, may be shuffled and deflated, and may grow in every dimension. Nothing in a file
+/// depends on clock or user (objects carry no times), so the same calls make the same bytes. Files are of the
+/// oldest format, which every tool reads and which, unlike the newer ones, has no mark "open for writing"
+/// that would lock out readers after a death of the program. They are consistent once closed, not before:
+/// core/io/h5md_trajectory.hpp says how a run lives with that.
+///
+/// Errors are FileErrors that name file and object, with the reason of the system if there is one. HDF5's own
+/// C interface and not its C++ one, which has no gain to show for a second library; HighFive is not in
+/// Debian.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace treejet {
+
+using Extent = std::vector<std::uint64_t>;
+
+class Hdf5File {
+ public:
+  enum class Access { create, append, read };
+  enum class Number { real, integer };
+  struct Layout {
+    Number number = Number::real;
+    Extent extent, chunk;
+    double fill = 0;
+    bool compressed = true;
+  };
+
+  Hdf5File(std::filesystem::path path, Access access);
+  /// Of what has not been closed by then nothing is promised.
+  ~Hdf5File();
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+
+  /// Everything to the system; the object is of no further use.
+  void close();
+
+  /// Each makes the groups above it.
+  void group(const std::string& name);
+  void dataset(const std::string& name, const Layout& layout);
+  void text(const std::string& name, const std::string& value);
+  /// A second name of an object.
+  void link(const std::string& existing, const std::string& name);
+
+  void attribute(const std::string& object, const std::string& name, const std::string& value);
+  void attribute(const std::string& object, const std::string& name, const std::vector<std::string>& values);
+  /// As a string of variable length, which h5py and H5MD's readers take for text rather than for bytes.
+  void word_attribute(const std::string& object, const std::string& name, const std::string& value);
+  void attribute(const std::string& object, const std::string& name, const std::vector<int>& values);
+
+  bool has(const std::string& name) const;
+  Extent extent(const std::string& dataset) const;
+  std::string text(const std::string& dataset) const;
+  std::string text_attribute(const std::string& object, const std::string& name) const;
+
+  void resize(const std::string& dataset, const Extent& extent);
+
+  /// A box of a dataset: its first corner and its size, row-major as in C.
+  struct Box {
+    Extent first, size;
+  };
+  void write(const std::string& dataset, const Box& box, const double* values);
+  void write(const std::string& dataset, const Box& box, const std::int64_t* values);
+  void read(const std::string& dataset, const Box& box, double* values) const;
+  void read(const std::string& dataset, const Box& box, std::int64_t* values) const;
+
+ private:
+  using Id = std::int64_t;
+
+  void transfer(const std::string& dataset, const Box& box, bool writes, Id memory_type, void* values) const;
+
+  std::filesystem::path path_;
+  Id file_ = -1;
+};
+
+/// Whether the file begins as an HDF5 file does.
+bool is_hdf5(const std::filesystem::path& path);
+
+/// The library's version, as it runs.
+std::string hdf5_version();
+
+}  // namespace treejet

@@ -1,0 +1,123 @@
+#include "core/io/run_record.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <exception>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.hpp"
+#include "core/io/atomic_file.hpp"
+
+namespace treejet {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char* format_name = "treejet run record 1";
+
+std::string now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
+}
+
+std::string host() {
+  char name[256] = {};
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
+Json record_of(const RunRecord::Setting& s) {
+  const Provenance& p = s.made_by;
+  return {{"format", format_name},
+          {"program", program(p)},
+          {"version", p.version},
+          {"commit", p.commit},
+          {"compiler", p.compiler},
+          {"build", p.build},
+          {"vector_path", p.isa_name},
+          {"libraries", p.libraries},
+          {"deck", {{"name", p.deck_name}, {"text", p.deck}, {"overrides", p.overrides}}},
+          {"files", s.files},
+          {"segments", Json::array()}};
+}
+
+Json read_record(const fs::path& path) {
+  std::ifstream file(path);
+  if (!file) throw FileError(fmt::format("{}: cannot be read", path.string()));
+  const Json record = Json::parse(file, nullptr, /*allow_exceptions*/ false);
+  if (record.is_discarded()) throw FileError(fmt::format("{}: cut short, or no JSON", path.string()));
+  if (!record.is_object() || record.value("format", "") != format_name)
+    throw FileError(fmt::format("{}: JSON, but no run record of treejet", path.string()));
+  return record;
+}
+
+/// A deck may hold bytes of any encoding; JSON only UTF-8.
+void write(const fs::path& path, const Json& record) {
+  write_whole(path, fmt::format("{}\n", record.dump(2, ' ', false, Json::error_handler_t::replace)));
+}
+
+}  // namespace
+
+RunRecord::RunRecord(const Setting& setting) : path_(setting.directory / run_record_name) {
+  using Existing = OutputFile::Existing;
+  std::error_code error;
+  const bool there = fs::exists(path_, error);
+  if (there && setting.existing == Existing::keep) throw exists_already(path_);
+  Json record = there && setting.existing == Existing::resume ? read_record(path_) : record_of(setting);
+  record["segments"].push_back({{"started", now()},
+                                {"host", host()},
+                                {"ranks", setting.circumstances.ranks},
+                                {"threads", setting.circumstances.threads},
+                                {"outcome", "running"}});
+  write(path_, record);
+}
+
+RunRecord::~RunRecord() {
+  try {
+    if (!ended_) end(std::uncaught_exceptions() > 0 ? "failed" : "stopped early");
+  } catch (const std::exception&) {
+    // the record stays as it is; what went wrong with the disk has been told already
+  }
+}
+
+void RunRecord::complete() {
+  end("completed");
+}
+
+void RunRecord::end(const char* outcome) {
+  ended_ = true;
+  Json record = read_record(path_);
+  Json& segment = record["segments"].back();
+  segment["outcome"] = outcome;
+  segment["ended"] = now();
+  segment["wall_seconds"] =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  write(path_, record);
+}
+
+std::string run_record_text(const fs::path& path) try {
+  const Json record = read_record(path);
+  std::string text = "record of a run\n";
+  for (const Json& s : record.at("segments")) {
+    text += fmt::format("{}  on {}, {} ranks of {} threads: {}", s.at("started").get<std::string>(),
+                        s.at("host").get<std::string>(), s.at("ranks").get<int>(), s.at("threads").get<int>(),
+                        s.at("outcome").get<std::string>());
+    text +=
+        s.contains("wall_seconds") ? fmt::format(" after {:.4g} s\n", s["wall_seconds"].get<double>()) : "\n";
+  }
+  text += "files";
+  for (const Json& f : record.at("files")) text += fmt::format(" {}", f.get<std::string>());
+  const Json& deck = record.at("deck");
+  const Provenance p{record.at("version"), record.at("commit"),      record.at("compiler"),
+                     record.at("build"),   record.at("vector_path"), record.at("libraries"),
+                     deck.at("name"),      deck.at("text"),          deck.at("overrides")};
+  return fmt::format("{}\n{}", text, description(p));
+} catch (const Json::exception& e) {
+  throw FileError(fmt::format("{}: a run record with something missing: {}", path.string(), e.what()));
+}
+
+}  // namespace treejet

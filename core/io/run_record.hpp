@@ -1,0 +1,55 @@
+#pragma once
+/// run.json: what made the files beside it, and under which circumstances.
+///
+///     {"format": "treejet run record 1", "program", "version", "commit", "compiler", "build", "vector_path",
+///      "libraries", "deck": {"name", "text", "overrides"}, "files": [...],
+///      "segments": [{"started", "host", "ranks", "threads", "ended", "wall_seconds", "outcome"}, ...]}
+///
+/// A segment is one process: the first run or a resumption. Its outcome is "running" until it is over, and
+/// stays so if the program is killed; then "completed", "stopped early" or "failed". Times are UTC. This is
+/// the only file of a run whose bytes depend on when, where and on how many cores it ran. The only place that
+/// knows the JSON library.
+
+#include <chrono>
+#include <filesystem>
+
+#include "core/io/output_file.hpp"
+#include "core/io/provenance.hpp"
+
+namespace treejet {
+
+struct Circumstances {
+  int ranks = 1, threads = 1;
+};
+
+class RunRecord {
+ public:
+  struct Setting {
+    std::filesystem::path directory;
+    Provenance made_by;
+    std::vector<std::string> files;
+    Circumstances circumstances;
+    OutputFile::Existing existing = OutputFile::Existing::keep;  ///< resume: adds a segment
+  };
+
+  /// Writes the record, with a segment that is running.
+  explicit RunRecord(const Setting& setting);
+  RunRecord(const RunRecord&) = delete;
+  RunRecord& operator=(const RunRecord&) = delete;
+  /// Unless told of the end before: stopped early or, while an exception is under way, failed.
+  ~RunRecord();
+
+  void complete();
+
+ private:
+  void end(const char* outcome);
+
+  std::filesystem::path path_;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+  bool ended_ = false;
+};
+
+/// What a record tells, for people. FileError if it is none, or cut short.
+std::string run_record_text(const std::filesystem::path& path);
+
+}  // namespace treejet

@@ -1,0 +1,65 @@
+#pragma once
+/// The chain at one instant, as the force terms see it: the beads of a stage with the nozzle and the held
+/// bead in place, and the geometry of the elements.
+///
+/// Points are the n beads, then the held bead if there is one, then the nozzle. Element i (i < n) joins bead
+/// i to its upper neighbour; that of bead n-1 is the nozzle even while a bead is held:
+///     l_i = |r_i - r_up|,   t_i = (r_i - r_up) / l_i   (away from the nozzle),   strain rate = (v_i -
+///     v_up).t_i / l_i.
+/// Volume is conserved, pi a_i^2 l_i = pi a_0^2 l_step. Scaled. Source: paper, Sec. "Equations of motion".
+
+#include <utility>
+
+#include "core/jet/jet.hpp"
+#include "core/jet/nozzle.hpp"
+
+namespace treejet {
+
+template <int D>
+struct Chain {
+  using Points = Eigen::Array<double, Eigen::Dynamic, D>;
+
+  int beads = 0;
+  Points point;                 ///< beads, [held], nozzle
+  Eigen::ArrayXd point_charge;  ///< as the Coulomb sum sees it
+  Points tangent;               ///< per element, like all below
+  Eigen::ArrayXd inverse_length, strain_rate, stress, inverse_mass;
+
+  int points() const { return static_cast<int>(point.rows()); }
+};
+
+/// Sizes the chain for the jet and sets its boundary: held bead and nozzle.
+template <int D>
+void set_boundary(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, double t, const State<D>& y) {
+  const Eigen::Index n = y.rows(), points = n + (jet.held ? 2 : 1);
+  chain.beads = static_cast<int>(n);
+  chain.point.resize(points, Eigen::NoChange);
+  chain.point_charge.resize(points);
+  chain.tangent.resize(n, Eigen::NoChange);
+  for (auto* a : {&chain.inverse_length, &chain.strain_rate, &chain.stress, &chain.inverse_mass})
+    a->resize(n);
+  const Vec<D> origin = nozzle.position(t);
+  if (jet.held) {
+    const auto held = nozzle.held(position<D>(y, n - 1), origin);
+    chain.point.row(n) = held.position.transpose();
+    chain.point_charge[n] = held.charge;
+  }
+  chain.point.row(points - 1) = origin.transpose();
+  chain.point_charge[points - 1] = Nozzle<D>::charge;
+}
+
+/// Sets the beads first <= i < last as points.
+template <int D>
+void set_points(Chain<D>& chain, const Jet<D>& jet, const State<D>& y,
+                std::pair<Eigen::Index, Eigen::Index> rows) {
+  const auto [first, last] = rows;
+  chain.point.middleRows(first, last - first) = y.middleRows(first, last - first).template leftCols<D>();
+  chain.point_charge.segment(first, last - first) = jet.charge.segment(first, last - first);
+}
+
+/// Sets the elements first <= i < last, with the masses of their beads.
+template <int D>
+void set_elements(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, double t, const State<D>& y,
+                  std::pair<Eigen::Index, Eigen::Index> rows);
+
+}  // namespace treejet

@@ -1,0 +1,92 @@
+#pragma once
+/// The solution between the two ends of a step: dense output for every scheme.
+///
+/// Position is the quintic that meets position, velocity and acceleration at both ends, velocity is its
+/// derivative, stress the cubic that meets stress and its rate. With theta = (t - begin) / h and exact end
+/// values the errors are O(h^6 theta^3 (1 - theta)^3) in position, O(h^5 theta^2 (1 - theta)^2) in velocity
+/// and O(h^4 theta^2 (1 - theta)^2) in stress, also a little outside [0, 1]. The solution holds for begin <=
+/// t <= until. Source: Hermite interpolation; e.g. Hairer, Norsett, Wanner, "Solving ODEs I", II.6.
+
+#include "core/base/weighted_sum.hpp"
+#include "core/jet/jet.hpp"
+
+namespace treejet {
+
+/// A point of the solution: the state with its slope.
+template <int D>
+struct SolutionPoint {
+  double t = 0;
+  State<D> y, slope;
+
+  void visit(Archive& state) { state(t, y, slope); }
+};
+
+template <int D>
+class DenseOutput {
+ public:
+  DenseOutput(const SolutionPoint<D>& begin, const SolutionPoint<D>& end)
+      : begin_(begin), end_(end), until(end.t) {}
+
+  double begin() const { return begin_.t; }
+  const State<D>& first() const { return begin_.y; }
+
+  State<D> at(double t) const {
+    State<D> y(begin_.y.rows(), 2 * D + 1);
+    at(t, 0, y);
+    return y;
+  }
+
+  /// Beads first, first + 1, ... of the state at t, as many as `y` has rows.
+  void at(double t, Eigen::Index first, State<D>& y) const {
+    const double h = end_.t - begin_.t, s = (t - begin_.t) / h, s2 = s * s, s3 = s2 * s;
+    // of position and velocity at the beginning and at the end, and of the accelerations
+    const double x = s3 * (10 - 15 * s + 6 * s2), v = 30 * s2 * (1 - 2 * s + s2) / h;
+    const std::array<double, 6> of_position = {1 - x,
+                                               x,
+                                               h * (s - s3 * (6 - 8 * s + 3 * s2)),
+                                               -h * s3 * (4 - 7 * s + 3 * s2),
+                                               h * h / 2 * (s2 - s3 * (3 - 3 * s + s2)),
+                                               h * h / 2 * s3 * (1 - 2 * s + s2)};
+    const std::array<double, 6> of_velocity = {-v,
+                                               v,
+                                               1 - s2 * (18 - 32 * s + 15 * s2),
+                                               -s2 * (12 - 28 * s + 15 * s2),
+                                               h * (s - s2 * (4.5 - 6 * s + 2.5 * s2)),
+                                               h * s2 * (1.5 - 4 * s + 2.5 * s2)};
+    for (int k = 0; k < D; ++k) {
+      const auto from = [&](const State<D>& table, int column) { return table.col(column).data() + first; };
+      const std::array<const double*, 6> ends = {from(begin_.y, k),
+                                                 from(end_.y, k),
+                                                 from(begin_.y, velocity_column<D> + k),
+                                                 from(end_.y, velocity_column<D> + k),
+                                                 from(begin_.slope, velocity_column<D> + k),
+                                                 from(end_.slope, velocity_column<D> + k)};
+      weighted_sum(nullptr, of_position, ends, y.rows(), y.col(k).data());
+      weighted_sum(nullptr, of_velocity, ends, y.rows(), y.col(velocity_column<D> + k).data());
+    }
+    constexpr int sigma = stress_column<D>;
+    const double c = s2 * (3 - 2 * s);
+    const auto stress = [&](const State<D>& table) { return table.col(sigma).segment(first, y.rows()); };
+    y.col(sigma) = (1 - c) * stress(begin_.y) + c * stress(end_.y) +
+                   h * s * (1 - 2 * s + s2) * stress(begin_.slope) - h * s2 * (1 - s) * stress(end_.slope);
+  }
+
+  /// Third derivative of the position of bead i at the end: what the next step may expect of its
+  /// acceleration.
+  Vec<D> jerk_at_end(Eigen::Index i) const {
+    const double h = end_.t - begin_.t;
+    const Vec<D> v0 = h * velocity<D>(begin_.y, i), a0 = h * h * velocity<D>(begin_.slope, i);
+    const Vec<D> A = position<D>(end_.y, i) - position<D>(begin_.y, i) - v0 - a0 / 2;
+    const Vec<D> B = h * velocity<D>(end_.y, i) - v0 - a0, C = h * h * velocity<D>(end_.slope, i) - a0;
+    return (60 * A - 36 * B + 9 * C) / (h * h * h);
+  }
+
+ private:
+  const SolutionPoint<D>& begin_;
+  const SolutionPoint<D>& end_;
+
+ public:
+  double until;  ///< end of validity: an event may have ended the step early
+};
+
+}  // namespace treejet

@@ -1,0 +1,55 @@
+#include "core/jet/scales.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace treejet {
+
+namespace {
+double section(const Parameters& p) {
+  return std::numbers::pi * p.nozzle_cross * p.nozzle_cross;
+}
+
+double charge_density(const Parameters& p) {
+  constexpr double litre = 1000;  // cm^3
+  return p.units == Units::real ? p.density_charge * statcoulomb_per_coulomb / litre : p.density_charge;
+}
+
+double potential(const Parameters& p) {
+  return p.units == Units::real ? p.external_potential / volt_per_statvolt : p.external_potential;
+}
+}  // namespace
+
+int initial_elements(const Parameters& p) {
+  return p.points ? *p.points : static_cast<int>(std::lround(p.initial_length / *p.resolution));
+}
+
+Scales scales(const Parameters& p) {
+  Scales s;
+  s.l_step = p.initial_length / initial_elements(p);
+  const double bead_volume = section(p) * s.l_step;
+  s.mass = p.density_mass * bead_volume;
+  s.charge = charge_density(p) * bead_volume;
+  s.stress = p.elastic_modulus;
+  s.time = p.viscosity / p.elastic_modulus;
+  s.length = s.charge == 0 ? s.l_step : s.charge / std::sqrt(section(p) * s.stress);
+  s.velocity = s.length / s.time;
+  return s;
+}
+
+Groups groups(const Parameters& p) {
+  const Scales s = scales(p);
+  const double acceleration = s.length / (s.time * s.time);
+  Groups g;
+  g.Q = s.charge * s.charge / (s.length * s.length) / (s.mass * acceleration);
+  g.V = s.charge * potential(p) / p.collector_distance / (s.mass * acceleration);
+  g.F_ve = section(p) * s.stress / (s.mass * acceleration);
+  g.A = p.surface_tension * section(p) / s.length / (s.mass * acceleration);
+  g.F_g = p.gravity ? standard_gravity / acceleration : 0;
+  g.K_s = p.perturb ? p.perturb_frequency * s.time : 0;
+  g.H = p.collector_distance / s.length;
+  g.L_step = s.l_step / s.length;
+  return g;
+}
+
+}  // namespace treejet

@@ -1,0 +1,60 @@
+#include "core/jet/stiffness.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/jet/scales.hpp"
+
+namespace treejet {
+
+namespace {
+
+/// Above this many steps a bead the additive scheme costs less, though it evaluates every term at every
+/// stage.
+constexpr double bound_by_stability = 20;
+
+double fastest_rate(const Parameters& p, const Scales& s) {
+  const double omega = 2 / s.l_step * std::sqrt(p.elastic_modulus / p.density_mass), damping = 1 / s.time;
+  const double overdamped = damping * damping - 4 * omega * omega;
+  return overdamped > 0 ? (damping + std::sqrt(overdamped)) / 2 : omega;
+}
+
+/// v from the balance in the header, by bisection between rest and free flight.
+double speed(const Parameters& p, const Scales& s, double drive) {
+  double low = 0, high = std::sqrt(drive / p.density_mass);
+  for (int i = 0; i < 100; ++i) {
+    const double v = (low + high) / 2, e = v / s.l_step;
+    const double resistance = p.density_mass * v * v + p.viscosity * e / (1 + s.time * e);
+    (resistance < drive ? low : high) = v;
+  }
+  return (low + high) / 2;
+}
+
+}  // namespace
+
+Stiffness stiffness(const Parameters& p) {
+  const Scales s = scales(p);
+  const double charge_density = s.charge / s.mass * p.density_mass,
+               section = s.mass / p.density_mass / s.l_step;
+  const double field_on_element = groups(p).V * s.mass * s.length / (s.time * s.time) / section;
+  const double v = speed(p, s, section * charge_density * charge_density + field_on_element);
+  return {fastest_rate(p, s), s.time, std::min(s.l_step / std::max(v, p.nozzle_velocity), p.final_time)};
+}
+
+Scheme chosen_scheme(const Parameters& p) {
+  if (p.integrator != Scheme::automatic) return p.integrator;
+  return stiffness(p).stable_steps() > bound_by_stability ? Scheme::kencarp5 : Scheme::verner6;
+}
+
+std::string choice_reason(const Parameters& p) {
+  if (p.integrator != Scheme::automatic) return "";
+  const Stiffness s = stiffness(p);
+  const bool stiff = chosen_scheme(p) == Scheme::kencarp5;
+  return fmt::format(
+      "{}: stability would bind an explicit scheme to {:.2g} steps a bead ({:.2g}/s, a bead in {:.2g} s)",
+      stiff ? "stiff" : "not stiff", s.stable_steps(), s.fastest_rate, s.bead_interval);
+}
+
+}  // namespace treejet

@@ -1,0 +1,29 @@
+#include "core/observe/accuracy_warning.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "core/observe/progress.hpp"
+
+namespace treejet {
+
+std::string summary_of(const FieldErrorReport& forces) {
+  std::string text = fmt::format("forces: {}", forces.method);
+  if (forces.samples == 0) return text;
+  text +=
+      fmt::format("; error on sampled beads at the most {:.2g}, of a bead {:.2g}, asked for {:g}, {} samples",
+                  forces.worst_l2, forces.worst_max, forces.asked, forces.samples);
+  if (forces.missed > 0) text += fmt::format("; ACCURACY MISSED in {} of them", forces.missed);
+  return text;
+}
+
+void warn_of_missed_accuracy(const FieldErrorReport& forces, double t) {
+  fmt::print(
+      stderr,
+      "{}treejet: warning: at t = {:.6g} s the error of the Coulomb field on sampled beads was {:.2g}, above "
+      "the accuracy {:g} asked for\n",
+      stderr_is_interactive() ? clear_line : "", t, forces.worst_l2, forces.asked);
+}
+
+}  // namespace treejet

@@ -1,0 +1,58 @@
+#include "core/observe/output_table.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "core/deck/observable_keys.hpp"
+#include "core/observe/progress.hpp"
+
+namespace treejet {
+
+namespace {
+std::string label(const std::string& key) {
+  for (const auto& known : observable_keys) {
+    if (known.key == key) return fmt::format("{}[{}]", key, known.unit);
+  }
+  return key;
+}
+}  // namespace
+
+StatFile::StatFile(OutputFile file, const std::vector<std::string>& keys, const Provenance& made_by)
+    : file_(std::move(file)) {
+  if (!file_.is_new()) return;
+  std::string header = "#";
+  for (const auto& key : keys) header += fmt::format(" {}", label(key));
+  file_.write(
+      fmt::format("{}\n{}## circumstances: {}\n", header, commented(made_by, "## "), run_record_name));
+}
+
+void StatFile::row(const std::vector<double>& values) {
+  std::string line;
+  for (double v : values) line += fmt::format("{:>24.16e}", v);
+  file_.write(line + "\n");
+}
+
+void StatFile::remark(const std::string& text) {
+  file_.write(fmt::format("# {}\n", text));
+}
+
+void TerminalTable::remark(const std::string& text) {
+  if (stderr_is_interactive()) fmt::print(stderr, "{}", clear_line);
+  fmt::print("# {}\n", text);
+}
+
+void TerminalTable::row(const std::vector<double>& values) {
+  constexpr int rows_a_header = 50;
+  std::string text;
+  if (rows_++ % rows_a_header == 0) {
+    for (const auto& key : keys_) text += fmt::format("{:>16}", label(key));
+    text += "\n";
+  }
+  for (double v : values) text += fmt::format("{:>16.8g}", v);
+  if (stderr_is_interactive()) fmt::print(stderr, "{}", clear_line);
+  fmt::print("{}\n", text);
+  std::fflush(stdout);
+}
+
+}  // namespace treejet

@@ -1,0 +1,191 @@
+#include "core/observe/outputs.hpp"
+
+#include <fmt/format.h>
+
+#include "core/observe/accuracy_warning.hpp"
+#include "core/observe/output_hdf5.hpp"
+#include "core/observe/output_table.hpp"
+#include "core/observe/output_xyz.hpp"
+#include "core/observe/progress.hpp"
+#include "core/observe/recorder.hpp"
+#include "core/restart/checkpoint.hpp"
+
+namespace treejet {
+
+namespace {
+
+template <int D>
+std::unique_ptr<Recorder<D>> recorder(const Parameters& p, const Nozzle<D>& nozzle,
+                                      const Collector& collector, const FieldErrorReport* force_error) {
+  const Scales s = scales(p);
+  return std::make_unique<Recorder<D>>(
+      typename Recorder<D>::Setting{nozzle, collector, s, p.nozzle_cross, p.collector_distance,
+                                    print_interval(p) / s.time, p.final_time / s.time, force_error});
+}
+
+/// The rows of traj.h5: the time, and what else `print list` asks for.
+std::vector<std::string> after_time(std::vector<std::string> keys) {
+  keys.insert(keys.begin(), "t");
+  return keys;
+}
+
+bool makes_table(const Parameters& p, const OutputSetting& setting) {
+  // a run stopped quietly may not have kept the windows of a table
+  return !p.print_list.empty() && !setting.quiet && (!setting.resumed || setting.resumed->has("rows"));
+}
+
+std::vector<std::string> hdf5_observables(const Parameters& p) {
+  return p.print_hdf5 ? reproducible_keys(p.print_list) : std::vector<std::string>();
+}
+
+/// All ranks must be of one opinion: who makes no rows here contributes to them.
+bool makes_rows(const Parameters& p, const OutputSetting& setting) {
+  return makes_table(p, setting) || !p.printstat_list.empty() || !hdf5_observables(p).empty();
+}
+
+template <int D>
+class Contribution final : public Sampling<D> {
+ public:
+  using Sampling<D>::Sampling;
+
+ private:
+  void sample(const Jet<D>&) override {}
+};
+
+/// Closes the record when all else is finished.
+template <int D>
+class RecordKeeper final : public Observer<D> {
+ public:
+  explicit RecordKeeper(const RunRecord::Setting& setting) : record_(setting) {}
+  void finish(const Jet<D>&) override { record_.complete(); }
+
+ private:
+  RunRecord record_;
+};
+
+}  // namespace
+
+template <int D>
+Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
+                    const OutputSetting& setting, const Decomposition<D>& decomposition)
+    : maxnum_(p.xyz_maxnum), force_error_(setting.force_error) {
+  if (setting.elsewhere) {
+    contribute(p, setting, decomposition);
+    return;
+  }
+  if (p.print_hdf5 || p.print_xyz || !p.printstat_list.empty()) lock_.emplace(setting.directory);
+  const Scales s = scales(p);
+  const auto file = [&](const char* name) {
+    files_.push_back(setting.directory / name);
+    return OutputFile(files_.back(), setting.existing);
+  };
+  const std::shared_ptr<H5mdTrajectory> hdf5 = p.print_hdf5 ? trajectory_file(p, setting) : nullptr;
+  if (makes_rows(p, setting)) {
+    auto rows = recorder<D>(p, nozzle, collector, setting.force_error);
+    rows->add(p.print_list,
+              makes_table(p, setting) ? std::make_unique<TerminalTable>(p.print_list) : nullptr);
+    if (!p.printstat_list.empty()) {
+      rows->add(p.printstat_list,
+                std::make_unique<StatFile>(file("statdat.dat"), p.printstat_list, setting.made_by));
+    }
+    if (const auto keys = hdf5_observables(p); !keys.empty())
+      rows->add(after_time(keys), std::make_unique<Hdf5Rows>(hdf5));
+    watch("rows", std::move(rows), decomposition);
+  }
+  if (p.print_xyz) {
+    auto trajectory = std::make_unique<XyzTrajectory<D>>(
+        typename XyzTrajectory<D>::Setting{nozzle, s, *p.print_xyz / s.time, p.xyz_maxnum, p.xyz_rescale,
+                                           program(setting.made_by)},
+        file("traj.xyz"));
+    trajectory_ = &watch("traj.xyz", std::move(trajectory), decomposition);
+  }
+  if (hdf5) {
+    using Frames = Hdf5Trajectory<D>;
+    const typename Frames::Setting frames{nozzle, s, p.nozzle_cross, *p.print_hdf5 / s.time};
+    watch("traj.h5", std::make_unique<Frames>(frames, hdf5), decomposition);
+  }
+  if (!files_.empty()) keep_record(setting);
+  if (force_error_)
+    watchers_.push_back({"accuracy", std::make_unique<AccuracyWarning<D>>(*force_error_, s.time)});
+  if (!setting.quiet) {
+    watchers_.push_back(
+        {"progress", std::make_unique<Progress<D>>(p.final_time / s.time, s.time, stderr_is_interactive())});
+  }
+}
+
+template <int D>
+template <class Samples>
+Samples& Outputs<D>::watch(const std::string& name, std::unique_ptr<Samples> watcher,
+                           const Decomposition<D>& decomposition) {
+  Samples& watching = *watcher;
+  watching.sample_whole(decomposition);
+  watchers_.push_back({name, std::move(watcher)});
+  return watching;
+}
+
+/// What another rank writes from the whole jet, this one sends its piece for, in the same order.
+template <int D>
+void Outputs<D>::contribute(const Parameters& p, const OutputSetting& setting,
+                            const Decomposition<D>& decomposition) {
+  if (decomposition.whole_here()) return;
+  const Scales s = scales(p);
+  const auto contribution = [&](double interval) {
+    watch("", std::make_unique<Contribution<D>>(interval / s.time), decomposition);
+  };
+  if (makes_rows(p, setting)) contribution(print_interval(p));
+  if (p.print_xyz) contribution(*p.print_xyz);
+  if (p.print_hdf5) contribution(*p.print_hdf5);
+}
+
+template <int D>
+std::shared_ptr<H5mdTrajectory> Outputs<D>::trajectory_file(const Parameters& p,
+                                                            const OutputSetting& setting) {
+  const auto path = setting.directory / "traj.h5";
+  files_.insert(files_.end(), {path, setting.directory / "traj.xdmf"});
+  return std::make_shared<H5mdTrajectory>(path, H5md::Content{setting.made_by, hdf5_observables(p)},
+                                          setting.existing);
+}
+
+template <int D>
+void Outputs<D>::keep_record(const OutputSetting& setting) {
+  RunRecord::Setting record{setting.directory, setting.made_by, {}, setting.circumstances, setting.existing};
+  for (const auto& f : files_) record.files.push_back(f.filename().string());
+  watchers_.push_back({run_record_name, std::make_unique<RecordKeeper<D>>(record)});
+  files_.push_back(setting.directory / run_record_name);
+}
+
+template <int D>
+Outputs<D>::~Outputs() = default;
+
+template <int D>
+std::vector<Observer<D>*> Outputs<D>::observers() const {
+  std::vector<Observer<D>*> all;
+  for (auto& w : watchers_) all.push_back(w.watcher.get());
+  return all;
+}
+
+template <int D>
+std::vector<std::string> Outputs<D>::summary() const {
+  std::vector<std::string> lines;
+  for (auto& f : files_) {
+    std::error_code error;
+    lines.push_back(fmt::format("{}  {} kB", f.string(), std::filesystem::file_size(f, error) / 1024));
+  }
+  if (trajectory_ && trajectory_->most_beads() > maxnum_) {
+    lines.push_back(
+        fmt::format("traj.xyz leaves out the beads nearest to the nozzle: {} points, print xyz maxnum {}",
+                    trajectory_->most_beads(), maxnum_));
+  }
+  if (force_error_) lines.push_back(summary_of(*force_error_));
+  return lines;
+}
+
+template <int D>
+void Outputs<D>::visit(CheckpointParts& state) {
+  for (auto& w : watchers_) state.part(w.name, *w.watcher);
+}
+
+template class Outputs<1>;
+template class Outputs<3>;
+
+}  // namespace treejet

@@ -1,0 +1,76 @@
+#pragma once
+/// The watchers that a deck asks for: terminal table, statdat.dat, traj.xyz, traj.h5, progress, and a warning
+/// should approximate forces miss their accuracy. What it does not ask for is not made: no file, no array.
+/// Beside any files of a run stands the record of it, run.json.
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/io/directory_lock.hpp"
+#include "core/io/output_file.hpp"
+#include "core/io/run_record.hpp"
+#include "core/jet/decomposition.hpp"
+#include "core/jet/observer.hpp"
+#include "core/jet/parameters.hpp"
+
+namespace treejet {
+
+template <int D>
+class Nozzle;
+class Collector;
+struct FieldErrorReport;
+template <int D>
+class XyzTrajectory;
+class H5mdTrajectory;
+class CheckpointParts;
+
+struct OutputSetting {
+  std::filesystem::path directory;
+  OutputFile::Existing existing = OutputFile::Existing::keep;
+  bool quiet = false;
+  bool elsewhere = false;  ///< another process makes the outputs of this run
+  Provenance made_by = {};
+  Circumstances circumstances = {};
+  const FieldErrorReport* force_error = nullptr;  ///< null: exact forces
+  const CheckpointParts* resumed = nullptr;       ///< what to go on from, null for a new run
+};
+
+template <int D>
+class Outputs {
+ public:
+  /// Opens the files; FileError if one exists already or cannot be made, or if another run writes there.
+  Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
+          const OutputSetting& setting, const Decomposition<D>& decomposition = undivided<D>);
+  ~Outputs();
+
+  std::vector<Observer<D>*> observers() const;
+  /// One line a file, for the closing summary.
+  std::vector<std::string> summary() const;
+
+  void visit(CheckpointParts& state);
+
+ private:
+  void contribute(const Parameters& p, const OutputSetting& setting, const Decomposition<D>& decomposition);
+  template <class Samples>
+  Samples& watch(const std::string& name, std::unique_ptr<Samples> watcher,
+                 const Decomposition<D>& decomposition);
+  std::shared_ptr<H5mdTrajectory> trajectory_file(const Parameters& p, const OutputSetting& setting);
+  void keep_record(const OutputSetting& setting);
+
+  struct Named {
+    std::string name;  ///< of the part of a checkpoint that tells its state
+    std::unique_ptr<Observer<D>> watcher;
+  };
+
+  std::optional<DirectoryLock> lock_;  ///< none without files
+  std::vector<Named> watchers_;
+  std::vector<std::filesystem::path> files_;
+  const XyzTrajectory<D>* trajectory_ = nullptr;
+  int maxnum_;
+  const FieldErrorReport* force_error_;
+};
+
+}  // namespace treejet

@@ -1,0 +1,104 @@
+#include "core/observe/recorder.hpp"
+
+#include <fmt/format.h>
+
+namespace treejet {
+
+template <int D>
+Recorder<D>::Recorder(const Setting& setting)
+    : Sampling<D>(setting.interval), setting_(setting), statistics_(setting.nozzle, setting.collector) {}
+
+template <int D>
+void Recorder<D>::add(const std::vector<std::string>& keys, std::unique_ptr<RowSink> sink) {
+  List list{{}, std::move(sink)};
+  for (const auto& key : keys) {
+    list.observables.push_back(observable<D>(key));
+    if (key == "lp" || key == "rlp") statistics_.follow_path();
+  }
+  lists_.push_back(std::move(list));
+}
+
+template <int D>
+void Recorder<D>::start(const Jet<D>& jet) {
+  started_ = last_row_ = Clock::now();
+  statistics_.begin_window(jet.t);
+  fed_ = statistics_.charge_fed(jet);
+  Sampling<D>::start(jet);
+}
+
+template <int D>
+void Recorder<D>::segment(const Jet<D>& jet, const DenseOutput<D>& segment) {
+  Sampling<D>::segment(jet, segment);
+  statistics_.integrate(segment, segment.until);
+}
+
+template <int D>
+void Recorder<D>::finish(const Jet<D>& jet) {
+  Sampling<D>::finish(jet);
+  for (auto& list : lists_)
+    if (list.sink) list.sink->finish();
+}
+
+template <int D>
+void Recorder<D>::visit(Archive& state) {
+  const auto now = Clock::now();
+  auto elapsed = now - started_, in_window = now - last_row_;
+  Sampling<D>::visit(state);
+  state(statistics_, fed_, landed_, remarked_, elapsed, in_window);
+  started_ = now - elapsed;
+  last_row_ = now - in_window;
+  for (auto& list : lists_)
+    if (list.sink) list.sink->visit(state);
+}
+
+template <int D>
+Timing Recorder<D>::timing(double t) const {
+  const auto now = Clock::now();
+  const double interval = std::chrono::duration<double>(now - last_row_).count();
+  const double rows_left = (setting_.end - t) / setting_.interval;
+  return {interval, std::chrono::duration<double>(now - started_).count(), interval * rows_left};
+}
+
+/// The rows that follow say how their forces are computed whenever that has changed.
+template <int D>
+void Recorder<D>::remark_on_forces(const Jet<D>& jet) {
+  const FieldErrorReport& forces = *setting_.force_error;
+  if (forces.method == remarked_) return;
+  remarked_ = forces.method;
+  const std::string remark =
+      fmt::format("t = {:.6g} s, {} beads: {}", jet.t * setting_.scales.time, jet.size(), forces.method);
+  for (auto& list : lists_)
+    if (list.sink) list.sink->remark(remark);
+}
+
+template <int D>
+void Recorder<D>::sample(const Jet<D>& jet) {
+  const double fed = statistics_.charge_fed(jet), landed = statistics_.charge_landed(jet);
+  const View<D> view{jet,
+                     setting_.nozzle,
+                     statistics_.window(),
+                     setting_.scales,
+                     setting_.nozzle_radius,
+                     setting_.collector_distance,
+                     fed - fed_,
+                     landed - landed_,
+                     timing(jet.t),
+                     setting_.force_error};
+  if (setting_.force_error) remark_on_forces(jet);
+  std::vector<double> values;
+  for (auto& list : lists_) {
+    if (!list.sink) continue;
+    values.clear();
+    for (const auto& o : list.observables) values.push_back(o(view));
+    list.sink->row(values);
+  }
+  fed_ = fed;
+  landed_ = landed;
+  last_row_ = Clock::now();
+  statistics_.begin_window(jet.t);
+}
+
+template class Recorder<1>;
+template class Recorder<3>;
+
+}  // namespace treejet

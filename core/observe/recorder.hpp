@@ -1,0 +1,71 @@
+#pragma once
+/// Rows of observables at every `print time`: the terminal table and statdat.dat.
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/observe/observables.hpp"
+#include "core/observe/sampling.hpp"
+
+namespace treejet {
+
+/// Takes the rows of a list of keys, and remarks on the rows that follow.
+class RowSink {
+ public:
+  virtual ~RowSink() = default;
+  virtual void row(const std::vector<double>& values) = 0;
+  virtual void finish() {}
+  virtual void visit(Archive&) {}
+  virtual void remark(const std::string&) {}
+};
+
+template <int D>
+class Recorder final : public Sampling<D> {
+ public:
+  struct Setting {
+    const Nozzle<D>& nozzle;
+    const Collector& collector;
+    Scales scales;
+    double nozzle_radius, collector_distance;       ///< cm
+    double interval, end;                           ///< scaled
+    const FieldErrorReport* force_error = nullptr;  ///< null: exact forces
+  };
+
+  explicit Recorder(const Setting& setting);
+
+  /// Sends the keys' values to the sink at every row. Without a sink the keys are only followed.
+  void add(const std::vector<std::string>& keys, std::unique_ptr<RowSink> sink);
+
+  void start(const Jet<D>& jet) override;
+  void segment(const Jet<D>& jet, const DenseOutput<D>& segment) override;
+  void event(EventKind kind, const Jet<D>& jet) override { statistics_.event(kind, jet); }
+  void finish(const Jet<D>& jet) override;
+  void visit(Archive& state) override;
+
+ protected:
+  void sample(const Jet<D>& jet) override;
+  void before_sample(const Jet<D>&, const DenseOutput<D>& segment, double t) override {
+    statistics_.integrate(segment, t);
+  }
+
+ private:
+  struct List {
+    std::vector<Observable<D>> observables;
+    std::unique_ptr<RowSink> sink;
+  };
+  using Clock = std::chrono::steady_clock;
+
+  Timing timing(double t) const;
+  void remark_on_forces(const Jet<D>& jet);
+
+  Setting setting_;
+  Statistics<D> statistics_;
+  std::vector<List> lists_;
+  double fed_ = 0, landed_ = 0;
+  std::string remarked_;  ///< how the forces of the last row were computed
+  Clock::time_point started_, last_row_;
+};
+
+}  // namespace treejet

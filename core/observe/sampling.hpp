@@ -1,0 +1,64 @@
+#pragma once
+/// Calls a function at the asked times k * interval, k = 0, 1, 2, ..., exactly there, by dense output.
+/// All times scaled.
+
+#include <cmath>
+
+#include "core/jet/decomposition.hpp"
+#include "core/jet/observer.hpp"
+
+namespace treejet {
+
+template <int D>
+class Sampling : public Observer<D> {
+ public:
+  explicit Sampling(double interval) : interval_(interval) {}
+
+  /// Of a chain held in pieces all ranks sample together: `sample` sees the whole jet on the first one.
+  void sample_whole(const Decomposition<D>& decomposition) { holding_ = &decomposition; }
+
+  void start(const Jet<D>& jet) override {
+    count_ = 0;
+    take(jet, jet.t, jet.y);
+  }
+
+  void segment(const Jet<D>& jet, const DenseOutput<D>& segment) override {
+    while (next() < segment.until - slack()) {
+      const double t = std::max(next(), segment.begin());
+      before_sample(jet, segment, t);
+      take(jet, t, t == segment.begin() ? segment.first() : segment.at(t));
+    }
+  }
+
+  void finish(const Jet<D>& jet) override {
+    if (next() <= jet.t + slack()) take(jet, jet.t, jet.y);
+  }
+
+  void visit(Archive& state) override { state(count_); }
+
+ protected:
+  /// The jet at an asked time, jet.t, with the state there.
+  virtual void sample(const Jet<D>& jet) = 0;
+  /// Told just before a sample that falls into a segment.
+  virtual void before_sample(const Jet<D>&, const DenseOutput<D>&, double /*t*/) {}
+
+  double next() const { return interval_ * double(count_); }
+  double interval() const { return interval_; }
+
+ private:
+  double slack() const {
+    return 1e-9 * interval_;
+  }  ///< the asked times and the grid of the steps round differently
+
+  void take(const Jet<D>& jet, double t, const State<D>& y) {
+    Jet<D> then{t, y, jet.mass, jet.charge, jet.held, jet.removed};
+    sample(holding_->whole(std::move(then)));
+    ++count_;
+  }
+
+  const Decomposition<D>* holding_ = &undivided<D>;
+  double interval_;
+  std::int64_t count_ = 0;
+};
+
+}  // namespace treejet

@@ -1,0 +1,120 @@
+#pragma once
+/// What is summed up between two rows of output: the window behind the averaged observables of Appendix B.
+///
+/// Counts and sums follow the events exactly; time averages are integrals of the dense output by the
+/// trapezoidal rule over the steps. A window without an arrival reports 0 for what is averaged over arrivals.
+/// All scaled.
+
+#include "core/jet/collector.hpp"
+#include "core/jet/dense_output.hpp"
+#include "core/jet/nozzle.hpp"
+#include "core/jet/observer.hpp"
+
+namespace treejet {
+
+/// Length of the polygon from the oldest bead to the nozzle.
+template <int D>
+double path_length(const State<D>& y, const Vec<D>& nozzle) {
+  double length = 0;
+  for (Eigen::Index i = 0; i < y.rows(); ++i) {
+    const Vec<D> upper = i + 1 < y.rows() ? position<D>(y, i + 1) : nozzle;
+    length += (position<D>(y, i) - upper).norm();
+  }
+  return length;
+}
+
+struct Window {
+  double begin = 0;
+  double charge_in = 0, mass_in = 0;    ///< of the beads placed at the nozzle
+  double charge_out = 0, mass_out = 0;  ///< of the beads removed at the collector
+  int arrivals = 0;
+  double speed = 0, strain_rate = 0, radius = 0;  ///< sums over arrivals; radius in units of a_0
+  double release_speed = 0, path_length = 0;      ///< integrals over time
+};
+
+template <int D>
+class Statistics {
+ public:
+  Statistics(const Nozzle<D>& nozzle, const Collector& collector) : nozzle_(nozzle), collector_(collector) {}
+
+  /// Integrates the path length too, which costs a pass over the beads each step.
+  void follow_path() { follows_path_ = true; }
+
+  const Window& window() const { return window_; }
+
+  void begin_window(double t) {
+    window_ = Window{};
+    window_.begin = integrated_to_ = t;
+  }
+
+  /// Integrates over the segment from where the last call ended to t.
+  void integrate(const DenseOutput<D>& segment, double t) {
+    const double from = integrated_to_, dt = t - from;
+    integrated_to_ = t;
+    if (!(dt > 0)) return;
+    window_.release_speed += dt * last_release_speed_;
+    if (follows_path_) window_.path_length += dt / 2 * (path_at(segment, from) + path_at(segment, t));
+  }
+
+  void event(EventKind kind, const Jet<D>& jet) {
+    if (kind == EventKind::place) {
+      window_.charge_in += 1;
+      window_.mass_in += 1;
+    } else if (kind == EventKind::release) {
+      last_release_speed_ = velocity<D>(jet.y, jet.size() - 1).norm();
+      ++released_;
+    } else {
+      arrival(jet);
+    }
+  }
+
+  /// Charge that has left the nozzle, the part of the next bead that has been drawn out counted.
+  double charge_fed(const Jet<D>& jet) const {
+    if (jet.size() == 0) return double(released_);
+    const double d = (position<D>(jet.y, jet.size() - 1) - nozzle_.position(jet.t)).norm();
+    return double(released_) + d / nozzle_.l_step() - 1;
+  }
+
+  /// Charge that has reached the collector, the part of the next bead on its way since the last arrival
+  /// counted.
+  double charge_landed(const Jet<D>& jet) const {
+    if (jet.removed == 0 || jet.size() == 0) return double(jet.removed);
+    const double way = (jet.y(0, 0) - next_arrival_from_) / (collector_.distance() - next_arrival_from_);
+    return charge_landed_ + way * jet.charge[0];
+  }
+
+  void visit(Archive& state) {
+    state(window_, integrated_to_, last_release_speed_, released_, charge_landed_, next_arrival_from_);
+  }
+
+ private:
+  double path_at(const DenseOutput<D>& segment, double t) const {
+    return path_length<D>(t == segment.begin() ? segment.first() : segment.at(t), nozzle_.position(t));
+  }
+
+  void arrival(const Jet<D>& jet) {
+    const bool alone = jet.size() == 1;
+    const Vec<D> upper = alone ? nozzle_.position(jet.t) : position<D>(jet.y, 1);
+    const Vec<D> upper_velocity = alone ? nozzle_.velocity(jet.t) : velocity<D>(jet.y, 1);
+    const Vec<D> d = position<D>(jet.y, 0) - upper, v = velocity<D>(jet.y, 0);
+    const double l = d.norm();
+    ++window_.arrivals;
+    window_.charge_out += jet.charge[0];
+    window_.mass_out += jet.mass[0];
+    window_.speed += v.norm();
+    window_.strain_rate += (v - upper_velocity).dot(d) / (l * l);
+    window_.radius += std::sqrt(nozzle_.l_step() / l);
+    charge_landed_ += jet.charge[0];
+    next_arrival_from_ = upper[0];
+  }
+
+  const Nozzle<D>& nozzle_;
+  const Collector& collector_;
+  bool follows_path_ = false;
+  Window window_;
+  double integrated_to_ = 0, last_release_speed_ = 0;
+  std::int64_t released_ = 0;
+  double charge_landed_ = 0, next_arrival_from_ = 0;
+};
+
+}  // namespace treejet

@@ -1,0 +1,85 @@
+#include "forces/coulomb/command/point_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/os.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <string_view>
+
+#include "core/base/error.hpp"
+
+namespace treejet {
+
+namespace {
+
+std::vector<std::string_view> cells(std::string_view line) {
+  std::vector<std::string_view> all;
+  while (true) {
+    const auto comma = line.find(',');
+    std::string_view cell = line.substr(0, comma);
+    while (!cell.empty() && (cell.front() == ' ' || cell.front() == '\t')) cell.remove_prefix(1);
+    while (!cell.empty() && (cell.back() == ' ' || cell.back() == '\t' || cell.back() == '\r'))
+      cell.remove_suffix(1);
+    all.push_back(cell);
+    if (comma == std::string_view::npos) return all;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// The places of x, y, z and q in the header.
+std::array<std::size_t, 4> columns(const std::string& file, const std::string& header) {
+  const std::vector<std::string_view> names = cells(header);
+  std::array<std::size_t, 4> place{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::string_view wanted = std::string_view("xyzq").substr(k, 1);
+    const auto found = std::find(names.begin(), names.end(), wanted);
+    if (found == names.end())
+      throw InputError(fmt::format("{}: line 1 names no column {}; expected x,y,z,q", file, wanted));
+    place[k] = static_cast<std::size_t>(found - names.begin());
+  }
+  return place;
+}
+
+}  // namespace
+
+PointTable read_points(const std::string& file) {
+  std::ifstream in(file);
+  if (!in) throw FileError("cannot read " + file);
+  std::string line;
+  std::getline(in, line);
+  const auto place = columns(file, line);
+  PointTable table;
+  for (int number = 2; std::getline(in, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    const std::vector<std::string_view> cell = cells(line);
+    for (std::size_t k = 0; k < 4; ++k) {
+      double value = 0;
+      const std::string_view text = place[k] < cell.size() ? cell[place[k]] : std::string_view();
+      const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+      if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+        throw InputError(fmt::format("{}: line {}: '{}' is not a finite number", file, number, text));
+      (k < 3 ? table.r[k] : table.q).push_back(value);
+    }
+  }
+  if (table.size() == 0) throw InputError(file + ": no points");
+  return table;
+}
+
+void write_field(const std::string& file, const PointTable& points, const FieldArrays<3>& field,
+                 const double* potential) {
+  try {
+    auto out = fmt::output_file(file);
+    out.print("x,y,z,q,ex,ey,ez,potential\n");
+    for (std::size_t i = 0; i < points.q.size(); ++i)
+      out.print("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", points.r[0][i],
+                points.r[1][i], points.r[2][i], points.q[i], field[0][i], field[1][i], field[2][i],
+                potential[i]);
+  } catch (const std::system_error& failure) {
+    throw FileError("cannot write " + file + ": " + failure.what());
+  }
+}
+
+}  // namespace treejet

@@ -1,0 +1,110 @@
+#include "forces/coulomb/tree/cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace treejet {
+
+/// A cell without extent or charge is as good as it can be.
+constexpr double widest_spread = 1000;
+
+Cells::Cells(int points, int leaf) : points_(points), leaf_(leaf) {
+  std::vector<int> counts = {(points + leaf - 1) / leaf};
+  while (counts.back() > 1) counts.push_back((counts.back() + 1) / 2);
+  first_ = {0};
+  for (auto count = counts.rbegin(); count != counts.rend(); ++count)
+    first_.push_back(first_.back() + *count);
+  for (auto* values : {&centre_[0], &centre_[1], &centre_[2], &radius_, &critical_, &spread_, &weight_})
+    values->resize(index(size()));
+}
+
+Rows Cells::leaf_points(int k) const {
+  return {k * leaf_, std::min(points_, (k + 1) * leaf_)};
+}
+
+void Cells::enclose(const CellPoints& points, Reach reach, Threads threads) {
+  for (int l = levels() - 1; l >= 0; --l) {
+    const CellRange cells = level(l);
+    for_each_block(threads, {0, cells.last - cells.first}, 512, [&](Rows rows) {
+      for (int k = rows.first; k < rows.last; ++k) {
+        if (l == levels() - 1)
+          weigh(points, k);
+        else
+          weigh_children(l, k);
+        measure(points, reach, l, k);
+        const std::size_t id = index(level(l).first + k);
+        const double r = radius_[id], Q = weight_[id];
+        spread_[id] = r > 0 && Q > 0 ? std::log2(4 * r * r / Q) : widest_spread;
+      }
+    });
+  }
+  critical_ = radius_;
+}
+
+Cells::Spread Cells::spread() const {
+  Spread all;
+  for (int k = level(levels() - 1).first; k < size(); ++k)
+    if (spread_[index(k)] < widest_spread) all.sum += spread_[index(k)], ++all.leaves;
+  return all;
+}
+
+void Cells::equalise_errors(int order, double opening, const Spread& among, Threads threads) {
+  const double mean = among.leaves > 0 ? among.sum / among.leaves : 0;
+  for_each_block(threads, {0, size()}, 512, [&](Rows cells) {
+    for (int k = cells.first; k < cells.last; ++k) {
+      const double inverse_u = std::exp2((mean - spread_[index(k)]) / (order + 2));
+      critical_[index(k)] = radius_[index(k)] * std::max(inverse_u, opening / clearance);
+    }
+  });
+}
+
+void Cells::weigh(const CellPoints& all, int leaf) {
+  const Rows points = leaf_points(leaf);
+  double sum[3] = {}, mean[3] = {}, weight = 0;
+  for (int i = points.first; i < points.last; ++i) {
+    weight += std::abs(all.q[i]);
+    for (int e = 0; e < 3; ++e) {
+      sum[e] += std::abs(all.q[i]) * all.r[e][i];
+      mean[e] += all.r[e][i];
+    }
+  }
+  const std::size_t cell = index(level(levels() - 1).first + leaf);
+  weight_[cell] = weight;
+  for (int e = 0; e < 3; ++e) centre_[e][cell] = weight > 0 ? sum[e] / weight : mean[e] / points.size();
+}
+
+void Cells::weigh_children(int l, int cell) {
+  const CellRange below = level(l + 1);
+  const std::size_t parent = index(level(l).first + cell), left = index(below.first + 2 * cell);
+  const std::size_t right = std::min(left + 1, index(below.last - 1));
+  const double a = weight_[left], b = right > left ? weight_[right] : 0.0;
+  weight_[parent] = a + b;
+  const double share = a + b > 0 ? b / (a + b) : right > left ? 0.5 : 0.0;
+  for (auto& centre : centre_) centre[parent] = centre[left] + share * (centre[right] - centre[left]);
+}
+
+/// Exact for cells of up to 8 leaves; above, from the balls of the children, which costs no pass over the
+/// points and little tightness.
+void Cells::measure(const CellPoints& points, Reach reach, int l, int cell) {
+  const std::size_t id = index(level(l).first + cell);
+  const double x = centre_[0][id], y = centre_[1][id], z = centre_[2][id];
+  const int below = levels() - 1 - l;
+  if (below > 3) {
+    const CellRange next = level(l + 1);
+    double radius = 0;
+    for (int child = next.first + 2 * cell; child < std::min(next.last, next.first + 2 * cell + 2); ++child) {
+      const std::size_t c = index(child);
+      radius =
+          std::max(radius, std::hypot(centre_[0][c] - x, centre_[1][c] - y, centre_[2][c] - z) + radius_[c]);
+    }
+    radius_[id] = radius;
+    return;
+  }
+  CellPoints own = points;
+  own.first = (cell << below) * leaf_;
+  own.count = std::min(points_, ((cell + 1) << below) * leaf_) - own.first;
+  const double centre[3] = {x, y, z};
+  radius_[id] = reach(own, centre);
+}
+
+}  // namespace treejet

@@ -1,0 +1,85 @@
+#include "forces/distributed/distributed_motion.hpp"
+
+namespace treejet {
+
+namespace {
+
+constexpr int columns_of_a_row = 2 * 3 + 1;
+
+std::vector<double> row(const State<3>& y, int i) {
+  const Eigen::Array<double, 1, columns_of_a_row> values = y.row(i);
+  return {values.data(), values.data() + values.size()};
+}
+
+}  // namespace
+
+void DistributedMotion::operator()(const Jet<3>& jet, double t, const State<3>& y, State<3>& slope) {
+  slope.resize(y.rows(), Eigen::NoChange);
+  if (pieces_.beads(jet) == 0) return;
+  const Rows own = pieces_.own();
+  extend(jet, y);
+  local_(extended_, t, extended_.y, slope_);
+  slope.middleRows(own.first, own.size()) = slope_.middleRows(first_, own.size());
+  if (solver_) repel(own, slope);
+  share_ends(slope);
+}
+
+/// The own beads and, from the ranks next along the chain, one on either side.
+void DistributedMotion::extend(const Jet<3>& jet, const State<3>& y) {
+  const Rows own = pieces_.own();
+  const int older = pieces_.older(), younger = pieces_.younger();
+  Ranks::Letters letters(index(pieces_.ranks().size()));
+  if (older >= 0) letters[index(older)] = row(y, own.first);
+  if (younger >= 0) letters[index(younger)] = row(y, own.last - 1);
+  const Ranks::Letters received = pieces_.ranks().exchange(letters);
+
+  first_ = older >= 0 ? 1 : 0;
+  const int n = first_ + own.size() + (younger >= 0 ? 1 : 0);
+  extended_.y.resize(n, Eigen::NoChange);
+  extended_.mass.setOnes(n);  // neighbours only pull: theirs does not matter
+  extended_.charge.setZero(n);
+  extended_.y.middleRows(first_, own.size()) = y.middleRows(own.first, own.size());
+  extended_.mass.segment(first_, own.size()) = jet.mass.segment(own.first, own.size());
+  extended_.charge.segment(first_, own.size()) = jet.charge.segment(own.first, own.size());
+  extended_.held = jet.held && pieces_.has_youngest();
+  const auto take_in = [&](int rank, int at) {
+    if (rank >= 0)
+      extended_.y.row(at) =
+          Eigen::Map<const Eigen::Array<double, 1, columns_of_a_row>>(received[index(rank)].data());
+  };
+  take_in(older, 0);
+  take_in(younger, n - 1);
+}
+
+/// The Coulomb force.
+void DistributedMotion::repel(Rows own, State<3>& slope) {
+  const Chain<3>& chain = local_.chain();
+  // points beyond the own beads: held bead and nozzle, or a neighbour and what follows it here only
+  const int points = own.size() == 0 ? 0 : pieces_.has_youngest() ? chain.points() - first_ : own.size();
+  field_.resize(points, Eigen::NoChange);
+  PointCharges<3> piece{{}, nullptr, points};
+  FieldArrays<3> field{};
+  for (int k = 0; k < 3; ++k) {
+    if (points > 0) piece.r[index(k)] = chain.point.col(k).data() + first_;
+    field[index(k)] = field_.col(k).data();
+  }
+  if (points > 0) piece.q = chain.point_charge.data() + first_;
+  solver_->field(piece, field, worthwhile(threads_, points));
+  for (int k = 0; k < 3 && points > 0; ++k)
+    slope.col(velocity_column<3> + k).segment(own.first, own.size()) +=
+        Q_ * chain.point_charge.segment(first_, own.size()) * chain.inverse_mass.segment(first_, own.size()) *
+        field_.col(k).head(own.size());
+}
+
+/// To their owners, too: a sum turns -0 into 0.
+void DistributedMotion::share_ends(State<3>& slope) const {
+  Eigen::Array<double, columns_of_a_row, 2> ends = decltype(ends)::Zero();
+  const Eigen::Index last = slope.rows() - 1;
+  if (pieces_.has_oldest()) ends.col(0) = slope.row(0).transpose();
+  if (pieces_.has_youngest()) ends.col(1) = slope.row(last).transpose();
+  pieces_.ranks().sum({ends.data(), static_cast<std::size_t>(ends.size())});
+  slope.row(0) = ends.col(0).transpose();
+  slope.row(last) = ends.col(1).transpose();
+}
+
+}  // namespace treejet

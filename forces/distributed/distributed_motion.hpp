@@ -1,0 +1,50 @@
+#pragma once
+/// The equations of motion of a chain held in pieces, one a rank (chain_pieces.hpp).
+///
+/// The local terms see the own beads with one neighbour on either side, which the ranks next along the chain
+/// send at each evaluation; the Coulomb field is that of DistributedSolver, the held bead and the nozzle
+/// belonging to the piece that ends there. The slopes of the oldest and the youngest bead go from their ranks
+/// to all, so that their copies stay the same bits.
+
+#include <optional>
+
+#include "forces/coulomb/distributed/solver_distributed.hpp"
+#include "forces/distributed/chain_decomposition.hpp"
+#include "forces/terms/equations_of_motion.hpp"
+
+namespace treejet {
+
+class DistributedMotion final : public RightHandSide<3> {
+ public:
+  /// `local` has no Coulomb term; it and `pieces` outlive this.
+  DistributedMotion(EquationsOfMotion<3>& local, const ChainDecomposition& pieces, Threads threads)
+      : local_(local), pieces_(pieces), threads_(threads) {}
+
+  /// Without it there are no charges.
+  void add_coulomb(double Q, const CoulombRequest& request) {
+    Q_ = Q;
+    solver_.emplace(request, pieces_.ranks());
+  }
+
+  void operator()(const Jet<3>& jet, double t, const State<3>& y, State<3>& slope) override;
+
+  /// Null without charges.
+  const FieldErrorReport* error() const { return solver_ ? &solver_->report().error : nullptr; }
+
+ private:
+  void extend(const Jet<3>& jet, const State<3>& y);
+  void repel(Rows own, State<3>& slope);
+  void share_ends(State<3>& slope) const;
+
+  EquationsOfMotion<3>& local_;
+  const ChainDecomposition& pieces_;
+  Threads threads_;
+  double Q_ = 0;
+  std::optional<DistributedSolver> solver_;
+  Jet<3> extended_;  ///< the own beads between their neighbours
+  int first_ = 0;    ///< of the own ones there
+  State<3> slope_;
+  Chain<3>::Points field_;
+};
+
+}  // namespace treejet

@@ -1,0 +1,158 @@
+#include "forces/multirate/history.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "forces/coulomb/coulomb.hpp"
+#include "forces/multirate/field_of_charge.hpp"
+
+namespace treejet {
+
+std::array<FastEnd, 2> fast_ends(int beads, int points) {
+  return {FastEnd{{0, fast_old}, {0, fast_old + near_points}},
+          FastEnd{{beads - fast_young, beads}, {beads - fast_young - near_points, points}}};
+}
+
+template <int D>
+void set_near_field(const typename Chain<D>::Points& point, const Eigen::ArrayXd& charge, const FastEnd& end,
+                    typename Chain<D>::Points& field) {
+  const int first = end.window.first;
+  coulomb_direct<D>({columns<D>(point, 0, first), charge.data() + first, end.window.size()},
+                    {end.fast.first - first, end.fast.last - first}, columns<D>(field, 0, first));
+}
+
+namespace {
+
+/// Adds the field e of some charge at the first beads to what is remembered.
+template <int D>
+void add_field(PastEvaluation<D>& m, const typename Chain<D>::Points& e, const Jet<D>& jet, double Q) {
+  const Eigen::Index n = e.rows();
+  m.field.topRows(n) += e;
+  m.slope.topRows(n).template leftCols<D>() += e.colwise() * (Q * jet.charge.head(n) / jet.mass.head(n));
+}
+
+/// Makes room for one more row at `at`.
+template <class Array>
+void insert_row(Array& a, Eigen::Index at) {
+  const Eigen::Index n = a.rows();
+  a.conservativeResize(n + 1, Eigen::NoChange);
+  a.bottomRows(n - at) = a.middleRows(at, n - at).eval();
+}
+
+}  // namespace
+
+template <int D>
+PastEvaluation<D>::PastEvaluation(double when, const Chain<D>& c, const Jet<D>& jet, const Points& E,
+                                  const State<D>& slopes, double Q)
+    : t(when),
+      point(c.point.topRows(c.beads + 1)),
+      point_charge(c.point_charge.head(c.beads + 1)),
+      field(E.topRows(c.beads)),
+      slope(slopes.template rightCols<D + 1>()) {
+  if (!jet.held) return;
+  const int n = c.beads, nozzle = c.points() - 1;
+  const Vec<D> held = c.point.row(n).matrix().transpose();
+  add_field<D>(*this, field_of<D>(-c.point_charge[n], held, c.point, n), jet, Q);
+  point.row(n) = c.point.row(nozzle);
+  point_charge[n] = c.point_charge[nozzle];
+}
+
+template <int D>
+void PastEvaluation<D>::set_far() {
+  const auto n = static_cast<int>(field.rows());
+  far.resize(n + 1, Eigen::NoChange);
+  for (const FastEnd& end : fast_ends(n, n + 1)) {
+    set_near_field<D>(point, point_charge, end, far);
+    const int i = end.fast.first, m = end.fast.size();
+    far.middleRows(i, m) = field.middleRows(i, m) - far.middleRows(i, m);
+  }
+}
+
+template <int D>
+bool History<D>::continuable(Eigen::Index beads) const {
+  return remembered_ == count && beads >= fast_region_beads;
+}
+
+template <int D>
+double History<D>::since(double t) const {
+  return remembered_ > 0 ? t - past_[0].t : std::numeric_limits<double>::infinity();
+}
+
+template <int D>
+typename History<D>::Weights History<D>::weights(double t) const {
+  const double t0 = past_[0].t, t1 = past_[1].t, t2 = past_[2].t;
+  return {(t - t1) * (t - t2) / ((t0 - t1) * (t0 - t2)), (t - t0) * (t - t2) / ((t1 - t0) * (t1 - t2)),
+          (t - t0) * (t - t1) / ((t2 - t0) * (t2 - t1))};
+}
+
+template <int D>
+std::array<const double*, History<D>::count> History<D>::slopes(int column, int first) const {
+  std::array<const double*, count> from;
+  for (int k = 0; k < count; ++k) from[k] = past_[k].slope.col(column).data() + first;
+  return from;
+}
+
+template <int D>
+bool History<D>::remember(PastEvaluation<D>&& now) {
+  const bool continued = continuable(now.field.rows());  // then all have their far field, `now` as well
+  // values too close in time would make the parabola amplify their own errors
+  const double usual = remembered_ >= 2 ? past_[0].t - past_[1].t : 0;
+  const bool replaces = remembered_ > 0 && now.t - past_[0].t <= 0.2 * usual;
+  if (!replaces) {
+    std::rotate(past_.begin(), past_.end() - 1, past_.end());
+    remembered_ = std::min(remembered_ + 1, count);
+  }
+  past_[0] = std::move(now);
+  if (!continued && continuable(beads())) {
+    for (auto& m : past_) m.set_far();
+  }
+  return !replaces;
+}
+
+template <int D>
+void History<D>::before_removal(const Jet<D>& jet, double Q) {
+  for (int k = 0; k < remembered_; ++k) {
+    PastEvaluation<D>& m = past_[k];
+    const Vec<D> oldest = m.point.row(0).matrix().transpose();
+    drop_first_row(m.point);
+    drop_first_row(m.point_charge);
+    drop_first_row(m.field);
+    drop_first_row(m.slope);
+    const Jet<D> left{jet.t, {}, jet.mass.tail(jet.size() - 1), jet.charge.tail(jet.size() - 1), false, 0};
+    add_field<D>(m, field_of<D>(-jet.charge[0], oldest, m.point, m.field.rows()), left, Q);
+    if (continuable(jet.size() - 1)) m.set_far();
+  }
+}
+
+template <int D>
+void History<D>::after_release(const Jet<D>& jet, double Q) {
+  const Eigen::Index youngest = jet.size() - 1;
+  for (int k = 0; k < remembered_; ++k) {
+    PastEvaluation<D>& m = past_[k];
+    const Vec<D> p = position<D>(jet.y, youngest) + (m.t - jet.t) * velocity<D>(jet.y, youngest);
+    add_field<D>(m, field_of<D>(jet.charge[youngest], p, m.point, youngest), jet, Q);
+
+    // the field of all others at p is minus what a charge at p would do to them
+    const typename Chain<D>::Points e = field_of<D>(1, p, m.point, youngest + 1);
+    insert_row(m.field, youngest);
+    m.field.row(youngest) = -(e.colwise() * m.point_charge).colwise().sum();
+    insert_row(m.slope, youngest);
+    m.slope.row(youngest).setZero();  // a fast bead: not looked at before it has a past of its own
+    insert_row(m.point, youngest);
+    m.point.row(youngest) = p.transpose().array();
+    insert_row(m.point_charge, youngest);
+    m.point_charge[youngest] = jet.charge[youngest];
+    if (continuable(jet.size())) m.set_far();
+  }
+}
+
+template struct PastEvaluation<1>;
+template struct PastEvaluation<3>;
+template class History<1>;
+template class History<3>;
+template void set_near_field<1>(const Chain<1>::Points&, const Eigen::ArrayXd&, const FastEnd&,
+                                Chain<1>::Points&);
+template void set_near_field<3>(const Chain<3>::Points&, const Eigen::ArrayXd&, const FastEnd&,
+                                Chain<3>::Points&);
+
+}  // namespace treejet

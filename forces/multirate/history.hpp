@@ -1,0 +1,96 @@
+#pragma once
+/// What is remembered of the last full evaluations, and its continuation in time: the parabola through three
+/// of them.
+///
+/// Remembered is the motion without a held bead, whose charge rises too fast to be continued. At a removal
+/// and a release the values are repaired as if the bead had always been absent or present; the past of a
+/// released bead is the straight way on which it left. Rows are those of the whole jet. Scaled. Source: e.g.
+/// Hairer, Norsett, Wanner, "Solving ODEs I", III.1.
+
+#include <array>
+
+#include "core/jet/chain.hpp"
+#include "parallel/rows.hpp"
+
+namespace treejet {
+
+/// Fast beads at the two ends of the jet, and how many points next to them act on them by a field that is not
+/// continued. Fewer young ones would make the step wait for the slow ones; more do not lengthen it.
+constexpr int fast_old = 4, fast_young = 24, near_points = 8;
+/// Both ends with what is near to them: beads that a step at two rates follows, and those of the old end.
+constexpr int fast_region_old = fast_old + near_points,
+              fast_region_beads = fast_region_old + near_points + fast_young;
+
+/// A fast end of a chain, and the points near to it.
+struct FastEnd {
+  Rows fast, window;
+};
+std::array<FastEnd, 2> fast_ends(int beads, int points);
+
+/// A full evaluation, remembered.
+template <int D>
+struct PastEvaluation {
+  using Points = typename Chain<D>::Points;
+  double t = 0;
+  Points point;  ///< beads, nozzle
+  Eigen::ArrayXd point_charge;
+  Points field;  ///< E at the beads, of all points
+  Points far;    ///< E at the fast beads, of the points that are not near
+  Eigen::Array<double, Eigen::Dynamic, D + 1> slope;  ///< acceleration and stress rate
+
+  PastEvaluation() = default;
+  /// That of the chain at t; the field is what its charges make at its beads.
+  PastEvaluation(double t, const Chain<D>& chain, const Jet<D>& jet, const Points& field,
+                 const State<D>& slope, double Q);
+
+  /// What the fast beads feel of far points, from all else.
+  void set_far();
+
+  void visit(Archive& state) { state(t, point, point_charge, field, far, slope); }
+};
+
+/// Field at the fast beads of an end, of the points near to it.
+template <int D>
+void set_near_field(const typename Chain<D>::Points& point, const Eigen::ArrayXd& charge, const FastEnd& end,
+                    typename Chain<D>::Points& field);
+
+template <int D>
+class History {
+ public:
+  static constexpr int count = 3;
+  using Weights = std::array<double, count>;
+
+  /// Whether the parabola, which needs three moments, may be used: it pays only where there are as many beads
+  /// as a step follows.
+  bool continuable(Eigen::Index beads) const;
+
+  /// Beads that are remembered.
+  int beads() const { return static_cast<int>(past_[0].slope.rows()); }
+  /// From the last moment to t; infinite without one.
+  double since(double t) const;
+
+  /// The weights of the remembered values at t.
+  Weights weights(double t) const;
+  /// Rows of what the parabola gives for a table of the moments.
+  template <class Array>
+  auto continuation(const Weights& w, Array PastEvaluation<D>::*table, Rows rows) const {
+    const auto remembered = [&](int k) { return (past_[k].*table).middleRows(rows.first, rows.size()); };
+    return w[0] * remembered(0) + w[1] * remembered(1) + w[2] * remembered(2);
+  }
+  /// The rows from `first` on of a column of the slopes, moment by moment.
+  std::array<const double*, count> slopes(int column, int first) const;
+
+  /// Where the parabola may be used already, `now` comes with its far field. False if it has taken the place
+  /// of the last moment, which was too near in time.
+  bool remember(PastEvaluation<D>&& now);
+  void before_removal(const Jet<D>& jet, double Q);
+  void after_release(const Jet<D>& jet, double Q);
+
+  void visit(Archive& state) { state(past_, remembered_); }
+
+ private:
+  std::array<PastEvaluation<D>, count> past_;  ///< newest first
+  int remembered_ = 0;
+};
+
+}  // namespace treejet

@@ -1,0 +1,263 @@
+#include "forces/multirate/multirate_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/weighted_sum.hpp"
+#include "forces/multirate/field_of_charge.hpp"
+
+namespace treejet {
+
+namespace {
+
+/// Of all rows those of the followed beads, and back.
+template <class Array>
+void take_followed(const Array& all, Array& some) {
+  some.resize(fast_region_beads, Eigen::NoChange);
+  some.topRows(fast_region_old) = all.topRows(fast_region_old);
+  some.bottomRows(fast_region_beads - fast_region_old) = all.bottomRows(fast_region_beads - fast_region_old);
+}
+template <class Array>
+void put_followed(const Array& some, Array& all) {
+  all.topRows(fast_region_old) = some.topRows(fast_region_old);
+  all.bottomRows(fast_region_beads - fast_region_old) = some.bottomRows(fast_region_beads - fast_region_old);
+}
+
+/// The rows of a whole jet of n beads that a step does not follow.
+Rows middle_of(Eigen::Index n) {
+  return {fast_region_old, static_cast<int>(n) - (fast_region_beads - fast_region_old)};
+}
+
+}  // namespace
+
+template <int D>
+void MultirateMotion<D>::operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) {
+  if (!history_.continuable(y.rows())) {
+    full_(jet, t, y, slope);
+    ++full_evaluations_;
+  } else if (y.rows() == history_.beads()) {
+    continued(jet, t, y, slope);
+  } else {
+    continued_ends(jet, t, y, slope);
+  }
+}
+
+template <int D>
+bool MultirateMotion<D>::on_accepted_step(const Jet<D>& jet, double t, const State<D>& y,
+                                          const State<D>* known, State<D>& slope) {
+  const double since = history_.since(t);
+  const bool continues = history_.continuable(y.rows());
+  if (continues && since < interval_) {
+    known ? continue_middle(jet, t, y, *known, slope) : continued(jet, t, y, slope);
+    return !known;
+  }
+  // what a stage found is full where nothing is continued yet
+  const bool evaluated = full_.on_accepted_step(jet, t, y, continues ? nullptr : known, slope);
+  full_evaluations_ += evaluated;
+  PastEvaluation<D> now(t, full_.chain(), jet, full_.coulomb()->field(), slope, Q());
+  double interval = since;
+  if (continues) {
+    now.set_far();
+    const double error = mismatch(jet, t, y, now) * since;
+    // a slow bead gains this error over and over on its whole way, while most steps err on the youngest bead
+    // only
+    constexpr double aim = 0.02, order = 4;
+    interval *= std::clamp(std::pow(aim / std::max(error, 1e-10), 1 / order), 0.3, 1.5);
+  }
+  if (history_.remember(std::move(now))) interval_ = interval;
+  return evaluated;
+}
+
+template <int D>
+const FastRegion<D>* MultirateMotion<D>::fast_region(const Jet<D>& jet, const SolutionPoint<D>& from) {
+  if (!history_.continuable(from.y.rows()) || from.y.rows() == fast_region_beads) return nullptr;
+  follow(jet, from.y);
+  fast_region_.from.t = from.t;
+  take_followed(from.slope, fast_region_.from.slope);
+  return &fast_region_;
+}
+
+template <int D>
+void MultirateMotion<D>::follow(const Jet<D>& jet, const State<D>& y) {
+  take_followed(jet.mass, fast_region_.jet.mass);
+  take_followed(jet.charge, fast_region_.jet.charge);
+  take_followed(y, fast_region_.from.y);
+  fast_region_.jet.held = jet.held;
+  specific_charge_ = specific_charge(fast_region_.jet, {0, fast_region_beads});
+}
+
+/// Q q / m of some beads.
+template <int D>
+Eigen::ArrayXd MultirateMotion<D>::specific_charge(const Jet<D>& jet, Rows rows) const {
+  const int i = rows.first, m = rows.size();
+  return Q() * jet.charge.segment(i, m) / jet.mass.segment(i, m);
+}
+
+/// The slopes of all beads.
+template <int D>
+void MultirateMotion<D>::continued(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) {
+  follow(jet, y);
+  continued_ends(fast_region_.jet, t, fast_region_.from.y, fast_region_.from.slope);
+  continue_middle(jet, t, y, fast_region_.from.slope, slope);
+}
+
+/// The slopes of all beads from those of the followed ones.
+template <int D>
+void MultirateMotion<D>::continue_middle(const Jet<D>& jet, double t, const State<D>& y, const State<D>& ends,
+                                         State<D>& slope) const {
+  slope.resize(y.rows(), Eigen::NoChange);
+  put_followed(ends, slope);
+  const Rows middle = middle_of(y.rows());
+  const int i = middle.first, m = middle.size();
+  const Weights w = history_.weights(t);
+  slope.middleRows(i, m).template leftCols<D>() =
+      y.middleRows(i, m).template middleCols<D>(velocity_column<D>);
+  for (int k = 0; k <= D; ++k)
+    weighted_sum(nullptr, w, history_.slopes(k, i), m, slope.col(velocity_column<D> + k).data() + i);
+  if (!jet.held) return;
+  const Nozzle<D>& nozzle = full_.nozzle();
+  const auto held = nozzle.held(position<D>(y, y.rows() - 1), nozzle.position(t));
+  const Points point = y.middleRows(i, m).template leftCols<D>();
+  slope.middleRows(i, m).template middleCols<D>(velocity_column<D>) +=
+      field_of<D>(held.charge, held.position, point, m).colwise() * specific_charge(jet, middle);
+}
+
+/// The slopes of the followed beads.
+template <int D>
+void MultirateMotion<D>::continued_ends(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) {
+  constexpr int n = fast_region_beads;
+  const int middle = history_.beads() - n;
+  const Weights w = history_.weights(t);
+  slope.resize(n, Eigen::NoChange);
+  field_.resize(n + 2, Eigen::NoChange);
+  set_boundary<D>(chain_, jet, full_.nozzle(), t, y);
+  set_points<D>(chain_, jet, y, {0, n});
+  set_near_beads(w, y, slope);
+  for (const FastEnd& end : fast_ends(n, chain_.points())) {
+    const int i = end.fast.first, left_out = i == 0 ? 0 : middle;
+    set_elements<D>(chain_, jet, full_.nozzle(), t, y, {std::max(i - 1, 0), end.fast.last});
+    full_.set_local(chain_, y, end.fast, slope);
+    set_near_field<D>(chain_.point, chain_.point_charge, end, field_);
+    field_.middleRows(i, end.fast.size()) +=
+        history_.continuation(w, &PastEvaluation<D>::far, {i + left_out, end.fast.last + left_out});
+  }
+  const Rows slow = {fast_old, n - fast_young};
+  if (jet.held) {
+    // the youngest beads have the held one among their near points
+    field_.middleRows(slow.first, slow.size()).setZero();
+    const Vec<D> held = chain_.point.row(n).matrix().transpose();
+    add_field_of<D>(chain_.point_charge[n], held, columns<D>(y), slow.last, columns<D>(field_));
+    accelerate({0, n}, slope);
+  } else {
+    accelerate({0, slow.first}, slope);
+    accelerate({slow.last, n}, slope);
+  }
+}
+
+/// The slopes of the slow beads among the followed ones, but for the field of a held bead.
+template <int D>
+void MultirateMotion<D>::set_near_beads(const Weights& w, const State<D>& y, State<D>& slope) const {
+  constexpr Rows slow = {fast_old, fast_region_beads - fast_young};
+  const int middle = history_.beads() - fast_region_beads;
+  slope.middleRows(slow.first, slow.size()).template leftCols<D>() =
+      y.middleRows(slow.first, slow.size()).template middleCols<D>(velocity_column<D>);
+  for (int k = 0; k <= D; ++k) {
+    double* const to = slope.col(velocity_column<D> + k).data();
+    weighted_sum(nullptr, w, history_.slopes(k, slow.first), near_points, to + slow.first);
+    weighted_sum(nullptr, w, history_.slopes(k, fast_region_old + middle), near_points, to + fast_region_old);
+  }
+}
+
+/// Adds what the field does to the followed beads of `rows`.
+template <int D>
+void MultirateMotion<D>::accelerate(Rows rows, State<D>& slope) const {
+  const int i = rows.first, m = rows.size();
+  for (int k = 0; k < D; ++k) {
+    slope.col(velocity_column<D> + k).segment(i, m) +=
+        specific_charge_.segment(i, m) * field_.col(k).segment(i, m);
+  }
+}
+
+template <int D>
+void MultirateMotion<D>::complete(const Jet<D>& jet, const SolutionPoint<D>& from, double h,
+                                  const State<D>& some, State<D>& next) {
+  const Rows middle = middle_of(from.y.rows());
+  next.resize(from.y.rows(), Eigen::NoChange);
+  put_followed(some, next);
+  drift(from, h, middle, next);
+  if (jet.held) push_by_held(jet, from, h, middle, next);
+}
+
+/// The middle beads after a step of continued slopes.
+template <int D>
+void MultirateMotion<D>::drift(const SolutionPoint<D>& from, double h, Rows middle, State<D>& all) const {
+  const int first = middle.first, m = middle.size();
+  const Weights begin = history_.weights(from.t), half = history_.weights(from.t + h / 2),
+                end = history_.weights(from.t + h);
+  Weights once;                                           // integrated over the step
+  std::array<double, History<D>::count + 1> twice = {h};  // the velocity's part, then the slopes'
+  for (std::size_t k = 0; k < once.size(); ++k) {
+    once[k] = h / 6 * (begin[k] + 4 * half[k] + end[k]);
+    twice[k + 1] = h * h / 6 * (begin[k] + 2 * half[k]);
+  }
+  for (int k = 0; k <= D; ++k) {
+    const int column = velocity_column<D> + k;
+    const auto slopes = history_.slopes(k, first);
+    const double* const rate = from.y.col(column).data() + first;  // velocity, and at last the stress
+    weighted_sum(rate, once, slopes, m, all.col(column).data() + first);
+    if (k == D) break;
+    weighted_sum(from.y.col(k).data() + first, twice, {rate, slopes[0], slopes[1], slopes[2]}, m,
+                 all.col(k).data() + first);
+  }
+}
+
+/// Adds what the held bead does to the middle beads in a step.
+template <int D>
+void MultirateMotion<D>::push_by_held(const Jet<D>& jet, const SolutionPoint<D>& from, double h, Rows middle,
+                                      State<D>& all) const {
+  const Eigen::Index i = middle.first, m = middle.size(), youngest = from.y.rows() - 1;
+  const Nozzle<D>& nozzle = full_.nozzle();
+  Points velocity = Points::Zero(m, D), way = Points::Zero(m, D);
+  const auto push = [&](double t, std::array<const double*, D> point, double once, double twice) {
+    Vec<D> r;
+    for (int k = 0; k < D; ++k) r[k] = point[k][youngest], point[k] += i;
+    const auto held = nozzle.held(r, nozzle.position(t));
+    add_field_of<D>(held.charge * once, held.position, point, m, columns<D>(velocity));
+    if (twice > 0) add_field_of<D>(held.charge * twice, held.position, point, m, columns<D>(way));
+  };
+  const auto change =
+      from.y.template middleCols<D>(velocity_column<D>) - all.template middleCols<D>(velocity_column<D>);
+  const Points half = (from.y.template leftCols<D>() + all.template leftCols<D>()) / 2 + h / 8 * change;
+  push(from.t, columns<D>(from.y), h / 6, h * h / 6);
+  push(from.t + h / 2, columns<D>(half), 4 * h / 6, 2 * h * h / 6);
+  push(from.t + h, columns<D>(std::as_const(all)), h / 6, 0);
+
+  const Eigen::ArrayXd per_field = specific_charge(jet, middle);
+  all.middleRows(i, m).template middleCols<D>(velocity_column<D>) += velocity.colwise() * per_field;
+  all.middleRows(i, m).template leftCols<D>() += way.colwise() * per_field;
+}
+
+/// What the continuation would have given now against what is true, in the norm of the step control.
+template <int D>
+double MultirateMotion<D>::mismatch(const Jet<D>& jet, double t, const State<D>& y,
+                                    const PastEvaluation<D>& now) const {
+  const int n = static_cast<int>(y.rows());
+  const Weights w = history_.weights(t);
+  State<D> error(n, 2 * D + 1);
+  error.template leftCols<D>().setZero();
+  error.template rightCols<D + 1>() = history_.continuation(w, &PastEvaluation<D>::slope, {0, n}) - now.slope;
+  for (const FastEnd& end : fast_ends(n, n + 1)) {
+    const int i = end.fast.first, m = end.fast.size();
+    const Points far = history_.continuation(w, &PastEvaluation<D>::far, end.fast) - now.far.middleRows(i, m);
+    error.middleRows(i, m).template middleCols<D>(velocity_column<D>) =
+        far.colwise() * specific_charge(jet, end.fast);
+    error.middleRows(i, m).col(stress_column<D>).setZero();
+  }
+  return norm_(error, y);
+}
+
+template class MultirateMotion<1>;
+template class MultirateMotion<3>;
+
+}  // namespace treejet

@@ -1,0 +1,87 @@
+#pragma once
+/// The equations of motion at two rates: beads near the two ends of the jet are fast, the others slow.
+///
+/// Over a few steps the field of far beads and the whole slope of slow beads change smoothly, so both are
+/// continued in time by the parabola through their last three full evaluations (moments.hpp). Computed are
+///
+///   - of a fast bead: its local terms and the field of the points near to its end of the chain; the
+///     continued field of the rest is added;
+///   - of a slow bead: the field of the held bead, whose charge rises too fast to be continued; its continued
+///     acceleration and stress rate are added.
+///
+/// A step follows the fast beads and those near to them. The others move, between its ends, as a parabola of
+/// the acceleration lets them, which Simpson's rule integrates exactly,
+///
+///     v(h) = v + h/6 (a_0 + 4 a_m + a_1) ,    r(h) = r + h v + h^2/6 (a_0 + 2 a_m) ,
+///
+/// a_m at the middle of the step; for what the held bead does to them, the square of which is left out, the
+/// rule is of fourth order.
+///
+/// A full evaluation is made at an accepted point of the solution once the interval since the last one is
+/// over. There the continued values meet the true ones: their difference times the interval, in the norm of
+/// the step control, is the error of the method, of fourth order in the interval, and sets the next interval.
+/// So beads that come close in space, though far along the chain, shorten the interval. No step is longer
+/// than the interval: what it continues ends less than two of them after the last full evaluation. Source:
+/// multiple time stepping.
+
+#include "core/jet/error_norm.hpp"
+#include "forces/multirate/history.hpp"
+#include "forces/terms/equations_of_motion.hpp"
+
+namespace treejet {
+
+template <int D>
+class MultirateMotion final : public RightHandSide<D> {
+ public:
+  /// The norm is that of the step control; the error of the continuation is held to a part of what it
+  /// permits.
+  MultirateMotion(EquationsOfMotion<D>& full, const ErrorNorm& norm) : full_(full), norm_(norm) {}
+
+  /// For the tables of all beads, or of those that `followed` gave.
+  void operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) override;
+  bool on_accepted_step(const Jet<D>& jet, double t, const State<D>& y, const State<D>* known,
+                        State<D>& slope) override;
+  double longest_step() const override {
+    return history_.continuable(history_.beads()) ? interval_ : RightHandSide<D>::longest_step();
+  }
+  const FastRegion<D>* fast_region(const Jet<D>& jet, const SolutionPoint<D>& from) override;
+  void complete(const Jet<D>& jet, const SolutionPoint<D>& from, double h, const State<D>& some,
+                State<D>& next) override;
+  void before_removal(const Jet<D>& jet) override { history_.before_removal(jet, Q()); }
+  void after_release(const Jet<D>& jet) override { history_.after_release(jet, Q()); }
+
+  void visit(Archive& state) override { state(full_, history_, interval_, full_evaluations_); }
+
+  std::int64_t full_evaluations() const { return full_evaluations_; }
+
+ private:
+  using Points = typename Chain<D>::Points;
+  using Weights = typename History<D>::Weights;
+
+  double Q() const { return full_.coulomb()->Q(); }
+  Eigen::ArrayXd specific_charge(const Jet<D>& jet, Rows rows) const;
+  void follow(const Jet<D>& jet, const State<D>& y);
+  void continued(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope);
+  void continue_middle(const Jet<D>& jet, double t, const State<D>& y, const State<D>& ends,
+                       State<D>& slope) const;
+  void continued_ends(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope);
+  void set_near_beads(const Weights& w, const State<D>& y, State<D>& slope) const;
+  void accelerate(Rows rows, State<D>& slope) const;
+  void drift(const SolutionPoint<D>& from, double h, Rows middle, State<D>& all) const;
+  void push_by_held(const Jet<D>& jet, const SolutionPoint<D>& from, double h, Rows middle,
+                    State<D>& all) const;
+  double mismatch(const Jet<D>& jet, double t, const State<D>& y, const PastEvaluation<D>& now) const;
+
+  EquationsOfMotion<D>& full_;
+  ErrorNorm norm_;
+  History<D> history_;
+  double interval_ = 0;  ///< from a moment to the next node that is one, and the longest step
+  std::int64_t full_evaluations_ = 0;
+
+  FastRegion<D> fast_region_{{}, {}, fast_region_old};
+  Eigen::ArrayXd specific_charge_;  ///< Q q / m of the followed beads
+  Chain<D> chain_;                  ///< of these
+  Points field_;                    ///< of this stage
+};
+
+}  // namespace treejet

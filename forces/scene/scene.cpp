@@ -1,0 +1,181 @@
+#include "forces/scene/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "core/jet/stiffness.hpp"
+#include "forces/distributed/distributed_motion.hpp"
+#include "forces/scene/coulomb_settings.hpp"
+#include "forces/terms/constitutive.hpp"
+#include "forces/terms/coulomb_force.hpp"
+#include "forces/terms/surface_tension.hpp"
+#include "forces/terms/uniform.hpp"
+#include "forces/terms/viscoelastic.hpp"
+
+namespace treejet {
+
+namespace {
+
+/// Beads at x_i = initial length - i l_step, at the nozzle velocity and stress: those with these numbers.
+template <int D>
+Jet<D> initial_jet(const Parameters& p, const std::vector<int>& beads) {
+  const Scales s = scales(p);
+  const auto n = static_cast<Eigen::Index>(beads.size());
+  Vec<D> r = Vec<D>::Zero(), v = Vec<D>::Zero();
+  v[0] = p.nozzle_velocity / s.velocity;
+  Jet<D> jet;
+  jet.y.resize(n, Eigen::NoChange);
+  jet.mass.setOnes(n);
+  jet.charge.setOnes(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    r[0] = (initial_elements(p) - beads[static_cast<std::size_t>(i)]) * s.l_step / s.length;
+    jet.y.row(i) << r.transpose().array(), v.transpose().array(), p.nozzle_stress / s.stress;
+  }
+  return jet;
+}
+
+/// The deck's cutoff is a length of jet as it leaves the nozzle, hence a number of points; without one all
+/// pairs count.
+int reach(const Parameters& p) {
+  constexpr double all = 2e9;
+  return static_cast<int>(p.cutoff ? std::min(std::ceil(*p.cutoff / scales(p).l_step), all) : all);
+}
+
+template <int D>
+class Composer {
+ public:
+  Composer(const Parameters& p, const Ranks& ranks) : p_(p), g_(groups(p)), ranks_(ranks) {}
+
+  std::unique_ptr<StressLaw<D>> stress_law() {
+    const Scales s = scales(p_);
+    if (!p_.hbfluid && p_.yield_stress == 0) {
+      composed.push_back({"Maxwell stress", "always"});
+      left_out.push_back({"Herschel-Bulkley stress", "no hbfluid yes, no yield stress"});
+      return std::make_unique<Maxwell<D>>();
+    }
+    composed.push_back({"Herschel-Bulkley stress", p_.hbfluid ? "hbfluid yes" : "yield stress"});
+    const double K = p_.hb_consistency * std::pow(s.time, 1 - p_.hb_index);
+    return std::make_unique<HerschelBulkley<D>>(p_.yield_stress / s.stress, K, p_.hb_index);
+  }
+
+  std::vector<std::unique_ptr<ForceTerm<D>>> terms() {
+    add(
+        true, "", [&] { return std::make_unique<Viscoelastic<D>>(g_.L_step, g_.F_ve); },
+        "viscoelastic force");
+    add(
+        g_.V != 0, p_.density_charge == 0 ? "density charge is 0" : "external potential is 0",
+        [&] { return std::make_unique<ElectricField<D>>(g_.V); }, "external field");
+    add(
+        g_.F_g != 0, "no gravity yes", [&] { return std::make_unique<Gravity<D>>(g_.F_g); }, "gravity");
+    if constexpr (D == 3) {
+      add(
+          g_.A != 0, "surface tension is 0",
+          [&] { return std::make_unique<SurfaceTension>(g_.L_step, g_.A); }, "surface tension");
+    } else {
+      left_out.push_back({"surface tension", "a straight jet (system 1) has no curvature"});
+    }
+    if (in_pieces()) {
+      note(g_.Q != 0, "Coulomb sum of all pieces", "parallel distributed", "density charge is 0");
+    } else {
+      add(
+          g_.Q != 0, "density charge is 0", [&] { return coulomb(); }, "Coulomb sum");
+    }
+    return std::move(terms_);
+  }
+
+  void boundaries() {
+    note(p_.inserting, "insertion at the nozzle", "inserting yes", "no inserting yes");
+    note(p_.removing, "removal at the collector", "removing yes", "no removing yes");
+    note(p_.perturb, "circling nozzle", "perturb yes", "no perturb yes");
+  }
+
+  bool in_pieces() const { return p_.parallel == ParallelData::distributed; }
+
+  /// Two rates need an error to hold, and a sum over all pairs to take apart.
+  bool multirate() {
+    const char* why_not = !p_.tolerance                           ? "a fixed timestep has no error to hold"
+                          : p_.multirate == Multirate::no         ? "multirate no"
+                          : p_.cutoff                             ? "cutoff"
+                          : chosen_scheme(p_) == Scheme::kencarp5 ? "a scheme that solves for the local terms"
+                          : g_.Q == 0                             ? "no Coulomb sum"
+                          : in_pieces()                           ? "parallel distributed"
+                          : stiffness(p_).relaxes_between_beads()
+                              ? "stress relaxes within the interval of beads"
+                              : nullptr;
+    note(!why_not, "two rates", "multirate auto", why_not);
+    return !why_not;
+  }
+
+  std::vector<Composed> composed, left_out;
+
+ private:
+  std::unique_ptr<CoulombForce<D>> coulomb() {
+    if (p_.coulomb == CoulombSum::direct) return std::make_unique<CoulombForce<D>>(g_.Q, reach(p_), ranks_);
+    return std::make_unique<CoulombForce<D>>(g_.Q, coulomb_request(p_, /*points_move*/ true), ranks_);
+  }
+
+  template <class Make>
+  void add(bool wanted, const char* why_not, Make make, const char* name) {
+    if (!wanted) return left_out.push_back({name, why_not});
+    terms_.push_back(make());
+    composed.push_back({std::string(terms_.back()->name()), why_not ? "named by the deck" : "always"});
+  }
+
+  void note(bool wanted, const char* name, const char* why, const char* why_not) {
+    (wanted ? composed : left_out).push_back({name, wanted ? why : why_not});
+  }
+
+  const Parameters& p_;
+  Groups g_;
+  const Ranks& ranks_;
+  std::vector<std::unique_ptr<ForceTerm<D>>> terms_;
+};
+
+std::vector<int> whole_jet(const Parameters& p) {
+  std::vector<int> beads(static_cast<std::size_t>(initial_elements(p)));
+  std::iota(beads.begin(), beads.end(), 0);
+  return beads;
+}
+
+}  // namespace
+
+void hold_in_pieces(Scene<3>& scene, const Parameters& p, int beads, const JetOfRows& jet_of, Threads threads,
+                    const Ranks& ranks) {
+  auto pieces = std::make_unique<ChainDecomposition>(beads, ranks);
+  auto motion = std::make_unique<DistributedMotion>(*scene.motion, *pieces, threads);
+  if (groups(p).Q != 0) motion->add_coulomb(groups(p).Q, coulomb_request(p, /*points_move*/ true));
+  scene.jet = jet_of(pieces->rows());
+  scene.pieces_error = motion->error();
+  scene.pieces_motion = std::move(motion);
+  scene.pieces = std::move(pieces);
+}
+
+template <int D>
+Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks) {
+  Composer<D> composer(p, ranks);
+  auto law = composer.stress_law();
+  auto terms = composer.terms();
+  composer.boundaries();
+  const Nozzle<D> nozzle(p);
+  const std::vector<int> beads = composer.in_pieces() ? std::vector<int>() : whole_jet(p);
+  Scene<D> scene{
+      initial_jet<D>(p, beads), nozzle, Collector(p), nullptr, nullptr, nullptr, nullptr, nullptr, {}, {}};
+  scene.motion = std::make_unique<EquationsOfMotion<D>>(nozzle, std::move(law), std::move(terms), threads);
+  if (composer.multirate())
+    scene.multirate = std::make_unique<MultirateMotion<D>>(*scene.motion, ErrorNorm(p));
+  if constexpr (D == 3)
+    if (composer.in_pieces()) {
+      const auto jet_of = [&](const std::vector<int>& rows) { return initial_jet<3>(p, rows); };
+      hold_in_pieces(scene, p, initial_elements(p), jet_of, threads, ranks);
+    }
+  scene.composed = std::move(composer.composed);
+  scene.left_out = std::move(composer.left_out);
+  return scene;
+}
+
+template Scene<1> compose<1>(const Parameters&, Threads, const Ranks&);
+template Scene<3> compose<3>(const Parameters&, Threads, const Ranks&);
+
+}  // namespace treejet

@@ -1,0 +1,60 @@
+#pragma once
+/// A scene: what a deck's parameters compose, ready to move. Only the terms that the deck names are in it;
+/// for each one left out, `left_out` tells why.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/base/field_error_report.hpp"
+#include "core/jet/collector.hpp"
+#include "core/jet/decomposition.hpp"
+#include "core/jet/nozzle.hpp"
+#include "core/jet/parameters.hpp"
+#include "forces/multirate/multirate_motion.hpp"
+#include "forces/terms/equations_of_motion.hpp"
+
+namespace treejet {
+
+struct Composed {
+  std::string term, reason;
+};
+
+template <int D>
+struct Scene {
+  Jet<D> jet;  ///< the initial jet
+  Nozzle<D> nozzle;
+  Collector collector;
+  std::unique_ptr<EquationsOfMotion<D>> motion;
+  std::unique_ptr<MultirateMotion<D>> multirate;  ///< null where every term is evaluated at every stage
+  /// Of a jet held in pieces: who holds what, and its motion. Null where every rank holds all of it.
+  std::unique_ptr<Decomposition<D>> pieces;
+  std::unique_ptr<RightHandSide<D>> pieces_motion;
+  const FieldErrorReport* pieces_error = nullptr;
+  std::vector<Composed> composed, left_out;
+
+  /// The right-hand side to step with.
+  RightHandSide<D>& right_hand_side() {
+    if (pieces_motion) return *pieces_motion;
+    if (multirate) return *multirate;
+    return *motion;
+  }
+
+  /// What is measured of approximate forces, null where all are exact.
+  const FieldErrorReport* force_error() const {
+    return motion->coulomb() ? motion->coulomb()->error() : pieces_error;
+  }
+
+  Decomposition<D>& decomposition() { return pieces ? *pieces : undivided<D>; }
+};
+
+/// Puts the motion of a jet of so many beads in pieces on top of the local terms; `jet_of` gives the beads of
+/// a piece by number.
+using JetOfRows = std::function<Jet<3>(const std::vector<int>&)>;
+void hold_in_pieces(Scene<3>& scene, const Parameters& parameters, int beads, const JetOfRows& jet_of,
+                    Threads threads, const Ranks& ranks);
+
+template <int D>
+Scene<D> compose(const Parameters& parameters, Threads threads, const Ranks& ranks = {});
+
+}  // namespace treejet

@@ -1,0 +1,89 @@
+#include "forces/terms/equations_of_motion.hpp"
+
+#include <fmt/format.h>
+
+namespace treejet {
+
+namespace {
+constexpr int block = 16;  // rows; the width of the Coulomb kernels' target blocks
+}
+
+template <int D>
+EquationsOfMotion<D>::EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<StressLaw<D>> stress_law,
+                                        std::vector<std::unique_ptr<ForceTerm<D>>> terms, Threads threads)
+    : nozzle_(std::move(nozzle)),
+      stress_law_(std::move(stress_law)),
+      terms_(std::move(terms)),
+      threads_(threads) {
+  for (auto& term : terms_) {
+    if (auto* coulomb = dynamic_cast<CoulombForce<D>*>(term.get())) coulomb_ = coulomb;
+  }
+}
+
+template <int D>
+void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) {
+  const int n = static_cast<int>(y.rows());
+  slope.resize(n, Eigen::NoChange);
+  if (n == 0) return;
+  const Threads threads = worthwhile(threads_, n);
+
+  set_boundary<D>(chain_, jet, nozzle_, t, y);
+  for_each_block(threads, {0, n}, block, [&](Rows rows) {
+    set_points<D>(chain_, jet, y, {rows.first, rows.last});
+    set_elements<D>(chain_, jet, nozzle_, t, y, {rows.first, rows.last});
+  });
+  for (auto& term : terms_) term->prepare(chain_, threads);
+  for_each_block(threads, {0, n}, block, [&](Rows rows) {
+    set_local(chain_, y, rows, slope);
+    Acceleration<D> acceleration = slope.template middleCols<D>(velocity_column<D>);
+    if (coulomb_) coulomb_->add(chain_, rows, acceleration);
+  });
+}
+
+/// The strain rate w.t / l = w.d / l^2 has the derivatives  w / l^2 - 2 rate t / l  by d and  t / l  by w.
+template <int D>
+void EquationsOfMotion<D>::differentiate(const Jet<D>& jet, double t, const State<D>& y,
+                                         LocalJacobian<D>& J) {
+  const int n = static_cast<int>(y.rows());
+  set_boundary<D>(chain_, jet, nozzle_, t, y);
+  set_points<D>(chain_, jet, y, {0, n});
+  set_elements<D>(chain_, jet, nozzle_, t, y, {0, n});
+  J.element.assign(static_cast<std::size_t>(n), {});
+  J.inverse_mass = chain_.inverse_mass;
+  for (int i = 0; i < n; ++i) {
+    const Vec<D> upper = i + 1 < n ? velocity<D>(y, i + 1) : nozzle_.velocity(t);
+    const Vec<D> tangent = chain_.tangent.row(i).matrix().transpose();
+    const double inverse = chain_.inverse_length[i], law = stress_law_->by_strain_rate(chain_, i);
+    auto& e = J.element[static_cast<std::size_t>(i)];
+    e.rate_by_w = law * inverse * tangent;
+    e.rate_by_d =
+        law * inverse * (inverse * (velocity<D>(y, i) - upper) - 2 * chain_.strain_rate[i] * tangent);
+    e.rate_by_stress = -1;
+  }
+  for (const auto& term : terms_) term->differentiate(chain_, J);
+}
+
+template <int D>
+void EquationsOfMotion<D>::set_local(const Chain<D>& chain, const State<D>& y, Rows rows,
+                                     State<D>& slope) const {
+  const int i = rows.first, n = rows.size();
+  slope.middleRows(i, n).template leftCols<D>() =
+      y.middleRows(i, n).template middleCols<D>(velocity_column<D>);
+  slope.middleRows(i, n).template middleCols<D>(velocity_column<D>).setZero();
+  stress_law_->set(chain, rows, slope.col(stress_column<D>));
+  Acceleration<D> acceleration = slope.template middleCols<D>(velocity_column<D>);
+  for (auto& term : terms_) {
+    if (term.get() != coulomb_) term->add(chain, rows, acceleration);
+  }
+}
+
+template class EquationsOfMotion<1>;
+template class EquationsOfMotion<3>;
+
+std::string threads_description(Threads threads) {
+  if (threads.count == 1) return "1 thread";
+  return fmt::format("{} threads ({} below {} beads)", threads.count, threads.count - 1,
+                     threads.count * beads_worth_a_thread);
+}
+
+}  // namespace treejet

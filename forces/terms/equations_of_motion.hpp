@@ -1,0 +1,59 @@
+#pragma once
+/// The equations of motion: the terms that a scene names, summed. The only right-hand side of the program.
+///
+///     dr_i/dt = v_i ,    m_i dv_i/dt = sum of the force terms ,    d sigma_i/dt = constitutive equation .
+///
+/// A term that is left out is not here: no test, no array. Every row is computed by one thread, in the order
+/// of the terms, so the bits of the result do not depend on the number of threads. Source: paper, Sec.
+/// "Equations of motion", scaled form.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/jet/nozzle.hpp"
+#include "core/jet/right_hand_side.hpp"
+#include "forces/terms/coulomb_force.hpp"
+#include "forces/terms/term.hpp"
+#include "parallel/threads.hpp"
+
+namespace treejet {
+
+template <int D>
+class EquationsOfMotion final : public RightHandSide<D> {
+ public:
+  EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<StressLaw<D>> stress_law,
+                    std::vector<std::unique_ptr<ForceTerm<D>>> terms, Threads threads);
+
+  void operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) override;
+
+  void differentiate(const Jet<D>& jet, double t, const State<D>& y, LocalJacobian<D>& J) override;
+
+  void visit(Archive& state) override {
+    if (coulomb_) state(*coulomb_);
+  }
+
+  /// Everything but the Coulomb force, which couples all beads, for the slopes of `rows`.
+  void set_local(const Chain<D>& chain, const State<D>& y, Rows rows, State<D>& slope) const;
+
+  /// The Coulomb force, null in a scene without charge, and the chain, both as the last evaluation left them.
+  const CoulombForce<D>* coulomb() const { return coulomb_; }
+  const Chain<D>& chain() const { return chain_; }
+
+  const Nozzle<D>& nozzle() const { return nozzle_; }
+  const StressLaw<D>& stress_law() const { return *stress_law_; }
+  const std::vector<std::unique_ptr<ForceTerm<D>>>& terms() const { return terms_; }
+
+ private:
+  Nozzle<D> nozzle_;
+  std::unique_ptr<StressLaw<D>> stress_law_;
+  std::vector<std::unique_ptr<ForceTerm<D>>> terms_;
+  CoulombForce<D>* coulomb_ = nullptr;  ///< one of the terms
+  Threads threads_;
+  Chain<D> chain_;
+};
+
+/// "2 threads (1 below 128 beads)".
+std::string threads_description(Threads threads);
+
+}  // namespace treejet

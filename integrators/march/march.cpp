@@ -1,0 +1,301 @@
+#include "integrators/march/march.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "integrators/march/diagnosis.hpp"
+
+namespace treejet {
+
+namespace {
+/// An event this fraction of a step off the end of the step is met by dense output, whose error there carries
+/// the square of this fraction; farther off, an adaptive step is made anew to end on the event.
+constexpr double dense_fraction = 0.01;
+/// Events closer than this fraction of l_step to being due, when another has just happened, are due.
+constexpr double simultaneous = 1e-12;
+
+void halt_if(const std::optional<std::string>& state_check, double t) {
+  if (state_check) throw NumericalError(fmt::format("at scaled time {}: {}", t, *state_check));
+}
+}  // namespace
+
+template <int D>
+void March<D>::evaluate(SolutionPoint<D>& node, const State<D>* known) {
+  effort_.evaluations += parts_.motion.on_accepted_step(parts_.jet, node.t, node.y, known, node.slope);
+}
+
+template <int D>
+double March<D>::overdue(bool insertion, const State<D>& y, double t) const {
+  const Eigen::Index last = y.rows() - 1;
+  if (insertion) return parts_.nozzle.overdue(parts_.jet, position<D>(y, last), t);
+  return parts_.collector.overdue(y(0, 0));
+}
+
+template <int D>
+double March<D>::overdue(bool insertion, const DenseOutput<D>& segment, double t) {
+  segment.at(t, insertion ? segment.first().rows() - 1 : 0, one_);
+  return overdue(insertion, one_, t);
+}
+
+template <int D>
+double March<D>::zero(bool insertion, const DenseOutput<D>& segment, double a, double b) {
+  double ga = overdue(insertion, segment, a), gb = overdue(insertion, segment, b);
+  if (ga >= 0) return a;
+  // regula falsi, Illinois variant
+  for (int i = 0; i < 60 && gb != 0 && b - a > 1e-15 * b; ++i) {
+    const double c = (a * gb - b * ga) / (gb - ga);
+    if (!(c > a && c < b)) break;
+    const double gc = overdue(insertion, segment, c);
+    if (gc < 0) {
+      a = c, ga = gc;
+      gb /= 2;
+    } else {
+      b = c, gb = gc;
+      ga /= 2;
+    }
+  }
+  return b;
+}
+
+template <int D>
+std::optional<typename March<D>::Due> March<D>::first_event(const DenseOutput<D>& segment, double reach) {
+  std::optional<Due> first;
+  const auto look_for = [&](bool insertion) {
+    double end = segment.until;
+    if (overdue(insertion, next_.y, next_.t) < 0) {
+      if (reach <= end || overdue(insertion, segment, reach) < 0) return;
+      end = reach;
+    }
+    const double t = zero(insertion, segment, segment.begin(), end);
+    if (!first || t < first->t) first = Due{t, insertion};
+  };
+  if (parts_.nozzle.inserting()) look_for(true);
+  if (parts_.collector.removing()) look_for(false);
+  return first;
+}
+
+template <int D>
+void March<D>::step(double h) {
+  fast_region_ = parts_.motion.fast_region(parts_.jet, now_);
+  if (fast_region_) {
+    parts_.stepper.step(parts_.motion, fast_region_->jet, fast_region_->from, h, fast_next_);
+    parts_.motion.complete(parts_.jet, now_, h, fast_next_, next_.y);
+  } else {
+    parts_.stepper.step(parts_.motion, parts_.jet, now_, h, next_.y);
+  }
+  next_.t = now_.t + h;
+  effort_.evaluations += parts_.stepper.evaluations();
+  ++effort_.steps;
+}
+
+/// The error of the last step in the norm of the control; 0 if the scheme does not estimate it.
+template <int D>
+double March<D>::error() const {
+  const State<D>& e = parts_.stepper.error;
+  if (e.rows() == 0) return 0;
+  return parts_.decomposition.greatest(parts_.norm(e, fast_region_ ? fast_region_->from.y : now_.y));
+}
+
+template <int D>
+void March<D>::give_up() const {
+  const State<D>& error = parts_.stepper.error;
+  Eigen::Index bead = 0;
+  const bool of_these = next_.y.rows() == now_.y.rows();  // no event has changed their number since
+  if (error.rows() > 0 && of_these) {
+    error.abs().rowwise().maxCoeff().maxCoeff(&bead);
+    if (fast_region_ && bead >= fast_region_->oldest) bead += now_.y.rows() - error.rows();
+  }
+  throw NumericalError(
+      fmt::format("at scaled time {}: the step has fallen below round-off because of bead {} (number {} "
+                  "since the start); "
+                  "likely cause: beads have met, or the tolerance is too small to be met",
+                  now_.t, bead, parts_.decomposition.before(parts_.jet) + bead));
+}
+
+/// Steps from now_ to next_ until the step control is content; returns the time up to which an event may be
+/// met on the extrapolated solution.
+template <int D>
+double March<D>::attempt(double end) {
+  while (true) {
+    const double longest = parts_.motion.longest_step();
+    double h = std::min(parts_.control.proposal(now_.t, end), longest);
+    bool aimed = false;
+    if (aims()) {
+      // steps of one length up to the event
+      constexpr double stretch = 1.1, steps = 4;
+      const double most = std::min(stretch * h, longest), horizon = steps * most;
+      const double ahead = forecast_.next_event(parts_.jet, now_, horizon);
+      if (ahead < horizon) {
+        const double n = std::max(std::ceil(ahead / most), 1.0);
+        aimed = n == 1;
+        h = ahead / n;
+      }
+      h = std::min(h, end - now_.t);
+    }
+    if (!(now_.t + h > now_.t)) give_up();
+    step(h);
+    if (!parts_.control.accepts(now_.t, h, error())) {
+      ++effort_.rejected;
+      continue;
+    }
+    return aimed ? std::min(next_.t + dense_fraction * h, end) : next_.t;
+  }
+}
+
+template <int D>
+void March<D>::start() {
+  now_.t = parts_.jet.t;
+  now_.y = parts_.jet.y;
+  for (auto* w : parts_.observers) w->start(parts_.jet);
+  evaluate(now_);
+  halt_if(not_finite<D>(now_.y, now_.slope, parts_.decomposition.before(parts_.jet)), now_.t);
+  // a nozzle that circles far off the axis begins beyond the place where it lets a bead go
+  if (parts_.nozzle.inserting() && overdue(true, now_.y, now_.t) > 0) {
+    settle({now_.t, /*insertion*/ true});
+    now_.y = parts_.jet.y;
+    evaluate(now_);
+  }
+  under_way_ = true;
+}
+
+template <int D>
+bool March<D>::to(double end) {
+  if (!under_way_) start();
+  while (now_.t < end && now_.y.rows() > 0) {
+    if (parts_.stop_here && parts_.stop_here()) return false;
+    const double reach = attempt(end);
+    halt_if(state_check<D>(now_.y, next_.y, parts_.nozzle.l_step(), parts_.decomposition.before(parts_.jet)),
+            next_.t);
+    evaluate(next_, parts_.stepper.slope_at_end());
+    if (parts_.events == EventRule::step) {
+      commit(std::nullopt);
+      look_at_step_end();
+    } else {
+      commit(located_event(reach));
+    }
+  }
+  parts_.jet.t = now_.t;
+  parts_.jet.y = now_.y;
+  for (auto* w : parts_.observers) w->finish(parts_.jet);
+  under_way_ = false;
+  return true;
+}
+
+template <int D>
+void March<D>::visit(Archive& state) {
+  state(parts_.jet, parts_.motion, parts_.control, now_, forecast_, effort_, under_way_);
+}
+
+/// The event that ends this step, if any. An adaptive step with an event well inside is made anew to end
+/// there.
+template <int D>
+std::optional<typename March<D>::Due> March<D>::located_event(double reach) {
+  const double h = next_.t - now_.t;
+  auto due = first_event(DenseOutput<D>(now_, next_), reach);
+  // one that is due at the very beginning ends the step there
+  if (due && aims() && due->t > now_.t && due->t < next_.t - dense_fraction * h) {
+    ++effort_.retaken;
+    step(due->t - now_.t);
+    evaluate(next_, parts_.stepper.slope_at_end());
+    due = first_event(DenseOutput<D>(now_, next_), next_.t + dense_fraction * h);
+  }
+  return due;
+}
+
+/// Shows the watchers the solution up to the event, or the whole step, and goes there.
+template <int D>
+void March<D>::commit(std::optional<Due> due) {
+  DenseOutput<D> segment(now_, next_);
+  if (due) segment.until = due->t;
+  for (auto* w : parts_.observers) w->segment(parts_.jet, segment);
+  if (aims()) forecast_.segment(parts_.jet, segment);
+  if (due) {
+    parts_.jet.t = due->t;
+    parts_.jet.y = segment.at(due->t);
+    settle(*due);
+    now_.t = parts_.jet.t;
+    now_.y = parts_.jet.y;
+    if (now_.y.rows() > 0) evaluate(now_);
+  } else {
+    std::swap(now_, next_);
+  }
+}
+
+/// To all who learn from events, when the jet is as watchers are to see it.
+template <int D>
+void March<D>::announce(EventKind kind) {
+  parts_.control.event(kind);
+  forecast_.event(kind, parts_.jet);
+  for (auto* w : parts_.observers) w->event(kind, parts_.jet);
+}
+
+template <int D>
+void March<D>::insertion() {
+  Jet<D>& jet = parts_.jet;
+  const EventKind kind = jet.held ? EventKind::release : EventKind::place;
+  if (under_way_) parts_.nozzle.check_timely(jet);
+  if (jet.held) {
+    parts_.nozzle.release(jet);
+    parts_.motion.after_release(jet);
+    parts_.decomposition.after_release(jet);
+    ++effort_.released;
+  } else {
+    parts_.nozzle.place(jet);
+    ++effort_.placed;
+  }
+  announce(kind);
+}
+
+template <int D>
+void March<D>::removal() {
+  Jet<D>& jet = parts_.jet;
+  if (jet.size() == 1 && parts_.nozzle.inserting()) {
+    throw NumericalError(
+        fmt::format("at scaled time {}: the only bead of the jet has reached the collector before "
+                    "another could be inserted; likely cause: the time step is too large",
+                    jet.t));
+  }
+  announce(EventKind::removal);
+  parts_.motion.before_removal(jet);
+  drop_first<D>(jet);
+  parts_.decomposition.after_removal(jet);
+  ++effort_.removed;
+}
+
+template <int D>
+void March<D>::settle(const Due& due) {
+  Jet<D>& jet = parts_.jet;
+  const double slack = -simultaneous * parts_.nozzle.l_step();
+  due.insertion ? insertion() : removal();
+  while (jet.size() > 0) {
+    if (parts_.nozzle.inserting() && overdue(true, jet.y, jet.t) >= slack) {
+      insertion();
+    } else if (parts_.collector.removing() && overdue(false, jet.y, jet.t) >= slack) {
+      removal();
+    } else {
+      break;
+    }
+  }
+}
+
+template <int D>
+void March<D>::look_at_step_end() {
+  Jet<D>& jet = parts_.jet;
+  const bool inserts = parts_.nozzle.inserting() && overdue(true, now_.y, now_.t) >= 0;
+  const bool removes = parts_.collector.removing() && overdue(false, now_.y, now_.t) > 0;
+  if (!inserts && !removes) return;
+  jet.t = now_.t;
+  jet.y = now_.y;
+  if (inserts) insertion();
+  if (removes) removal();
+  now_.y = jet.y;
+  if (now_.y.rows() > 0) evaluate(now_);
+}
+
+template class March<1>;
+template class March<3>;
+
+}  // namespace treejet

@@ -1,0 +1,98 @@
+#pragma once
+/// Marches a jet through time and its events.
+///
+/// Insertion (place, release) and removal are zeros of functions of the state, located on the dense output
+/// (core/jet/dense_output.hpp). Order at one instant: insertion, then removal, then whatever these have made
+/// due, until nothing is. The last bead is never removed while beads are inserted; without insertion the
+/// march ends with an empty jet. With EventRule::step both are looked for at the ends of steps only, at most
+/// one of each a step: JETSPIN's way, first order in the step whatever the scheme.
+///
+/// Errors: NumericalError names bead, time and likely cause when the state is no longer finite, a step falls
+/// below round-off, or beads of a straight jet have crossed. The watchers have seen everything up to there.
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/jet/collector.hpp"
+#include "core/jet/decomposition.hpp"
+#include "core/jet/error_norm.hpp"
+#include "core/jet/nozzle.hpp"
+#include "core/jet/observer.hpp"
+#include "integrators/march/forecast.hpp"
+#include "integrators/march/step_control.hpp"
+#include "integrators/schemes/stepper.hpp"
+
+namespace treejet {
+
+/// Work done by a march.
+struct Effort {
+  std::int64_t evaluations = 0, steps = 0, rejected = 0, retaken = 0, placed = 0, released = 0, removed = 0;
+};
+
+template <int D>
+class March {
+ public:
+  struct Parts {
+    Jet<D>& jet;
+    RightHandSide<D>& motion;
+    Stepper<D>& stepper;
+    StepControl& control;
+    const Nozzle<D>& nozzle;
+    const Collector& collector;
+    EventRule events;
+    ErrorNorm norm;
+    std::vector<Observer<D>*> observers;
+    std::function<bool()> stop_here = {};  ///< asked between any two steps: whether to stop there
+    Decomposition<D>& decomposition = undivided<D>;
+  };
+
+  explicit March(const Parts& parts)
+      : parts_(parts), forecast_(parts.nozzle, parts.collector), one_(1, 2 * D + 1) {}
+
+  /// On to scaled time `end`, or until the jet is empty. False if told to pause before; the next call goes on
+  /// from there.
+  bool to(double end);
+
+  const Effort& effort() const { return effort_; }
+  double t() const { return now_.t; }
+
+  /// All between two steps: the march, what it moves and by what rules. Not the watchers.
+  void visit(Archive& state);
+
+ private:
+  struct Due {
+    double t;
+    bool insertion;
+  };
+
+  bool aims() const { return parts_.control.steps_to_events() && parts_.events == EventRule::located; }
+  void start();
+  void evaluate(SolutionPoint<D>& node, const State<D>* known = nullptr);
+  void step(double h);
+  double error() const;
+  [[noreturn]] void give_up() const;
+  double attempt(double end);
+  std::optional<Due> located_event(double reach);
+  double overdue(bool insertion, const State<D>& y, double t) const;
+  double overdue(bool insertion, const DenseOutput<D>& segment, double t);
+  std::optional<Due> first_event(const DenseOutput<D>& segment, double reach);
+  double zero(bool insertion, const DenseOutput<D>& segment, double a, double b);
+  void commit(std::optional<Due> due);
+  void announce(EventKind kind);
+  void insertion();
+  void removal();
+  void settle(const Due& due);
+  void look_at_step_end();
+
+  Parts parts_;
+  SolutionPoint<D> now_, next_;
+  const FastRegion<D>* fast_region_ = nullptr;  ///< through the last step, null if all beads were
+  State<D> fast_next_;
+  Forecast<D> forecast_;
+  State<D> one_;
+  Effort effort_;
+  bool under_way_ = false;  ///< started, and not yet at the end
+};
+
+}  // namespace treejet

@@ -1,0 +1,89 @@
+#include "integrators/run/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include "core/jet/scales.hpp"
+#include "integrators/schemes/scheme_registry.hpp"
+
+namespace treejet {
+
+namespace {
+
+OutputSetting output_setting(OutputSetting outputs, const Checkpoint* resumed) {
+  if (resumed) {
+    outputs.existing = OutputFile::Existing::resume;
+    outputs.resumed = &resumed->state;
+  }
+  return outputs;
+}
+
+}  // namespace
+
+template <int D>
+Simulation<D>::Simulation(const Deck& deck, const Scene& scene, const Setting& setting)
+    : deck_(deck),
+      jet_(scene.jet),
+      holding_(scene.decomposition),
+      setting_{output_setting(setting.outputs, setting.resumed), setting.stop_request},
+      checkpoints_(setting.outputs.elsewhere
+                       ? std::nullopt
+                       : std::optional<Checkpoints>({setting_.outputs.directory, setting_.outputs.existing})),
+      stepper_(stepper<D>(chosen_scheme(deck.parameters))),
+      control_(step_control(deck.parameters)),
+      outputs_(deck.parameters, scene.nozzle, scene.collector, setting_.outputs, scene.decomposition),
+      march_({scene.jet, scene.motion, *stepper_, *control_, scene.nozzle, scene.collector,
+              deck.parameters.events, ErrorNorm(deck.parameters), outputs_.observers(),
+              [this] { return stop_here(); }, scene.decomposition}) {
+  if (setting.resumed) visit(setting.resumed->state);
+}
+
+template <int D>
+bool Simulation<D>::finish() {
+  const bool arrived = march_.to(deck_.parameters.final_time / scales(deck_.parameters).time);
+  if (arrived && checkpoints_) checkpoints_->remove();
+  return arrived;
+}
+
+template <int D>
+bool Simulation<D>::stop_here() {
+  const StopRequest stop_request = setting_.stop_request();
+  if (stop_request == StopRequest::go_on) return false;
+  if (!checkpoints_) return stop_request == StopRequest::stop;
+  Checkpoint checkpoint{program(setting_.outputs.made_by), deck_.name, deck_.text, deck_.overrides, t(), {}};
+  visit(checkpoint.state);
+  checkpoints_->write(checkpoint);
+  return stop_request == StopRequest::stop;
+}
+
+template <int D>
+void Simulation<D>::visit(CheckpointParts& state) {
+  const auto now = Clock::now();
+  auto elapsed = now - started_;
+  state.part("march", march_);
+  state.part("elapsed", elapsed);
+  started_ = now - elapsed;
+  outputs_.visit(state);
+}
+
+template <int D>
+double Simulation<D>::t() const {
+  return march_.t() * scales(deck_.parameters).time;
+}
+
+template <int D>
+std::string Simulation<D>::summary() const {
+  const Effort& e = march_.effort();
+  const double seconds = std::chrono::duration<double>(Clock::now() - started_).count();
+  std::string text = fmt::format("done in {:.3g} s: {} beads on the jet, {} inserted, {} arrived\n", seconds,
+                                 holding_.beads(jet_) + jet_.held, e.placed, e.removed);
+  text += fmt::format(
+      "{} evaluations of the forces in {} steps ({} rejected, {} made anew for an event), {:.3g} us each\n",
+      e.evaluations, e.steps, e.rejected, e.retaken, 1e6 * seconds / double(e.evaluations));
+  for (const auto& line : outputs_.summary()) text += line + "\n";
+  return text;
+}
+
+template class Simulation<1>;
+template class Simulation<3>;
+
+}  // namespace treejet

@@ -1,0 +1,28 @@
+#pragma once
+/// A one-step scheme for dy/dt = f(t, y): whole-table algebra in which no bead, force, thread or rank is
+/// visible.
+///
+/// `from` holds state and slope at the beginning, so the first stage is never computed twice. `next` is
+/// resized. A scheme with an embedded partner leaves in `error` the difference of the two results, else
+/// `error` is empty.
+
+#include "core/jet/dense_output.hpp"
+#include "core/jet/right_hand_side.hpp"
+
+namespace treejet {
+
+template <int D>
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  virtual int order() const = 0;
+  virtual int evaluations() const = 0;  ///< of f, a step, beside the slope that `from` brings
+  virtual void step(RightHandSide<D>& f, const Jet<D>& jet, const SolutionPoint<D>& from, double h,
+                    State<D>& next) = 0;
+  /// The slope at `next`, of a scheme that needs it for its error estimate.
+  virtual const State<D>* slope_at_end() const { return nullptr; }
+
+  State<D> error;
+};
+
+}  // namespace treejet

@@ -1,0 +1,17 @@
+#pragma once
+/// The decks in examples/: the paper's cases 1, 2 and 3 are single-bead, straight-jet and pvp.
+
+#include <string>
+#include <vector>
+
+#include "core/deck/deck.hpp"
+
+namespace treejet {
+
+/// The parameters of examples/NAME/input.dat with some of its directives replaced.
+inline Parameters example(const std::string& name, const std::vector<std::string>& overrides = {}) {
+  return read_deck(std::string(TREEJET_SOURCE_DIR) + "/examples/" + name + "/input.dat", overrides)
+      .parameters;
+}
+
+}  // namespace treejet

@@ -1,0 +1,72 @@
+#pragma once
+/// Small scenes put together by hand: a jet given bead by bead, moved by the terms that a test names.
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <vector>
+
+#include "forces/terms/constitutive.hpp"
+#include "forces/terms/equations_of_motion.hpp"
+#include "integrators/march/march.hpp"
+#include "integrators/schemes/scheme_registry.hpp"
+
+namespace treejet {
+
+/// A nozzle at rest with elements of scaled length 1, the collector far away: L_0 = l_step without charge.
+inline Parameters plain_parameters() {
+  Parameters p;
+  p.points = 1;
+  p.initial_length = 1;
+  p.nozzle_cross = 0.1;
+  p.density_mass = p.viscosity = p.elastic_modulus = 1;
+  p.collector_distance = 1000;
+  return p;
+}
+
+template <int D>
+struct Bead {
+  Bead(Vec<D> r = Vec<D>::Zero(), Vec<D> v = Vec<D>::Zero(), double sigma = 0, double m = 1, double q = 1)
+      : position(r), velocity(v), stress(sigma), mass(m), charge(q) {}
+  Vec<D> position, velocity;
+  double stress, mass, charge;
+};
+
+inline Bead<1> bead_at(double x, double v = 0, double stress = 0) {
+  return Bead<1>(Vec<1>(x), Vec<1>(v), stress);
+}
+
+template <int D>
+Jet<D> jet_of(const std::vector<Bead<D>>& beads) {
+  Jet<D> jet;
+  jet.y.resize(0, Eigen::NoChange);
+  for (const auto& b : beads) append<D>(jet, b.position, b.velocity, b.stress, b.mass, b.charge);
+  return jet;
+}
+
+/// The equations of motion with exactly these force terms.
+template <int D, class... Terms>
+EquationsOfMotion<D> equations(const Parameters& p, Terms... terms) {
+  std::vector<std::unique_ptr<ForceTerm<D>>> all;
+  (all.push_back(std::make_unique<Terms>(std::move(terms))), ...);
+  return EquationsOfMotion<D>(Nozzle<D>(p), std::make_unique<Maxwell<D>>(), std::move(all), Threads{1});
+}
+
+template <int D>
+State<D> slope(EquationsOfMotion<D>& f, const Jet<D>& jet) {
+  State<D> dy;
+  f(jet, jet.t, jet.y, dy);
+  return dy;
+}
+
+/// Marches a jet of such a scene to scaled time `end` in steps of dt.
+template <int D>
+void march_to(double end, double dt, Jet<D>& jet, EquationsOfMotion<D>& f, const Parameters& p,
+              Scheme scheme) {
+  const auto steps = stepper<D>(scheme);
+  FixedStep control(dt);
+  const Nozzle<D> nozzle(p);
+  const Collector collector(p);
+  March<D>({jet, f, *steps, control, nozzle, collector, p.events, ErrorNorm(p), {}}).to(end);
+}
+
+}  // namespace treejet

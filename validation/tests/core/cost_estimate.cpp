@@ -1,0 +1,47 @@
+/// What `treejet check` foretells from a trial.
+
+#include <catch2/catch.hpp>
+
+#include "core/jet/scales.hpp"
+#include "integrators/run/cost_estimate.hpp"
+#include "validation/support/example.hpp"
+
+using namespace treejet;
+
+namespace {
+
+/// A jet in its steady state: by scaled time t 40 t beads in, 40 t evaluations a bead, 1e-3 s each.
+TrialSample at(double t, double seconds) {
+  TrialSample s;
+  s.t = t, s.seconds = seconds, s.beads = 150, s.x = 400, s.v = 20;
+  s.inserted = static_cast<std::int64_t>(40 * t), s.removed = s.inserted, s.steps = 5 * s.inserted;
+  s.evaluations = 40 * s.inserted;
+  return s;
+}
+
+Trial trial(const std::vector<TrialSample>& samples) {
+  Trial t;
+  t.samples = samples;
+  return t;
+}
+
+}  // namespace
+
+TEST_CASE("A plan is a trial's rates carried on to the end, also if the machine stalled in the trial") {
+  const Parameters p = example("pvp");
+  const double end = p.final_time / scales(p).time;
+  const Trial smooth = trial({at(0, 0), at(1, 1.6), at(2, 3.2), at(3, 4.8), at(4, 6.4), at(4, 6.4)});
+  // nothing but a stall of three quarters of the trial stands between the last two samples with different t
+  const Trial stalled = trial({at(0, 0), at(1, 1.6), at(2, 3.2), at(3, 4.8), at(4, 24), at(4, 24)});
+  // a single step took the whole trial
+  const Trial one_step = trial({at(0, 0), at(4, 6.4)});
+  for (const Trial& t : {smooth, stalled, one_step}) {
+    const Plan foretold = plan(p, t, false);
+    CHECK(foretold.inserted == Approx(40 * end).epsilon(1e-9));
+    CHECK(foretold.evaluations == Approx(1600 * end).epsilon(1e-9));
+    CHECK(foretold.steps == Approx(200 * end).epsilon(1e-9));
+    CHECK(foretold.most_beads == 150);
+  }
+  CHECK(plan(p, smooth, false).seconds == Approx(1.6 * end).epsilon(1e-9));
+  CHECK(plan(p, one_step, false).seconds == Approx(1.6 * end).epsilon(1e-9));
+}

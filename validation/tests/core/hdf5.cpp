@@ -1,0 +1,181 @@
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "core/base/error.hpp"
+#include "core/commands/convert.hpp"
+#include "core/commands/file_info.hpp"
+#include "core/io/atomic_file.hpp"
+#include "core/io/h5md_trajectory.hpp"
+#include "validation/support/scratch_directory.hpp"
+
+using namespace treejet;
+namespace fs = std::filesystem;
+
+namespace {
+
+using Existing = OutputFile::Existing;
+
+/// Points come and go: up to 300 of them, more than a chunk of a growing file holds, in no order of size.
+Frame frame_of(int k) {
+  std::mt19937_64 random(static_cast<unsigned>(k));
+  std::normal_distribution<double> any;
+  Frame f;
+  f.time = 1e-4 * k;
+  const int beads = k * 53 % 300;
+  for (int i = 0; i < beads; ++i) f.id.push_back(k + i + 1);
+  f.id.push_back(0);
+  for (std::size_t c = 0; c < frame_columns.size(); ++c)
+    for (std::size_t i = 0; i < f.points() * static_cast<std::size_t>(frame_columns[c].width); ++i)
+      f.columns[c].push_back(any(random));
+  return f;
+}
+
+Row row_of(int k) {
+  return {0, 2e-4 * k, {double(k), 1.0 / (k + 1)}};
+}
+
+const H5md::Content content{{"1.2.3",
+                             "abc",
+                             "GNU",
+                             "Release",
+                             "avx2",
+                             "HDF5",
+                             "input.dat",
+                             "system 3\nfinish\n",
+                             {"tolerance 1.d-5"}},
+                            {"x", "curn"}};
+constexpr int frames = 70;
+
+/// Frames from `first` on, with a row every other one; `after` is told each.
+template <class After>
+void append(H5mdTrajectory& file, int first, int last, After after) {
+  for (int k = first; k < last; ++k) {
+    file.append(frame_of(k));
+    if (k % 2 == 0) file.append(row_of(k / 2));
+    after(k);
+  }
+}
+
+void nothing(int) {}
+
+std::string written_at_once(const fs::path& path) {
+  H5mdTrajectory file(path, content, Existing::keep);
+  append(file, 0, frames, nothing);
+  file.finish();
+  return read_whole(path);
+}
+
+void check_same(const Frame& a, const Frame& b) {
+  CHECK(a.step == b.step);
+  CHECK(a.time == b.time);
+  CHECK(a.id == b.id);
+  CHECK(a.columns == b.columns);
+}
+
+}  // namespace
+
+TEST_CASE("A trajectory read back is the one written, to the bit, and tells what made it") {
+  const Place place;
+  const fs::path path = place.path / "traj.h5";
+  written_at_once(path);
+  const H5md file(path, Hdf5File::Access::read);
+  REQUIRE(file.frames() == frames);
+  REQUIRE(file.rows() == frames / 2);
+  const std::vector<Frame> read = file.frames(0, frames);
+  for (int k = 0; k < frames; ++k) {
+    Frame expected = frame_of(k);
+    expected.step = k;
+    check_same(read[static_cast<std::size_t>(k)], expected);
+  }
+  const std::vector<Row> rows = file.rows(0, file.rows());
+  CHECK(rows[17].time == row_of(17).time);
+  CHECK(rows[17].values == row_of(17).values);
+  CHECK(file.content().keys == content.keys);
+  CHECK(description(file.content().made_by) == description(content.made_by));
+}
+
+TEST_CASE("The bytes of a finished trajectory do not depend on how often it was flushed") {
+  const Place place;
+  const std::string expected = written_at_once(place.path / "once" / "traj.h5");
+  const fs::path path = place.path / "often" / "traj.h5";
+  H5mdTrajectory file(path, content, Existing::keep);
+  append(file, 0, frames, [&](int k) { k % 3 == 0 ? file.sync() : file.flush(); });
+  file.finish();
+  CHECK(read_whole(path) == expected);
+  CHECK(read_whole(place.path / "often" / "traj.xdmf") == read_whole(place.path / "once" / "traj.xdmf"));
+  CHECK(std::distance(fs::directory_iterator(place.path / "often"), {}) == 2);
+}
+
+TEST_CASE("A trajectory continued from an earlier frame has the bytes of one that was never interrupted") {
+  const Place place;
+  const std::string expected = written_at_once(place.path / "once" / "traj.h5");
+  for (const int kept : {0, 1, 33, 34, frames}) {
+    CAPTURE(kept);
+    const fs::path path = place.path / fmt::format("resumed-{}", kept) / "traj.h5";
+    {
+      H5mdTrajectory killed(path, content, Existing::keep);
+      append(killed, 0, frames, [&](int k) {
+        if (k % 20 == 0) killed.flush();
+      });
+      killed.flush();
+      if (kept == 33) killed.finish();  // killed after the last word, before the checkpoint was removed
+    }
+    H5mdTrajectory file(path, content, Existing::resume);
+    file.continue_from(static_cast<std::uint64_t>(kept), static_cast<std::uint64_t>((kept + 1) / 2));
+    append(file, kept, frames, nothing);
+    file.finish();
+    CHECK(read_whole(path) == expected);
+    CHECK(read_whole(path.parent_path() / "traj.xdmf") == read_whole(place.path / "once" / "traj.xdmf"));
+  }
+  H5mdTrajectory file(place.path / "once" / "traj.h5", content, Existing::resume);
+  CHECK_THROWS_WITH(file.continue_from(frames + 1, 0), Catch::Contains("traj.h5: expected 71 frames"));
+}
+
+TEST_CASE("After each flush a trajectory is whole, and whoever reads it keeps what he has opened") {
+  const Place place;
+  const fs::path path = place.path / "traj.h5";
+  H5mdTrajectory file(path, content, Existing::keep);
+  std::vector<std::unique_ptr<H5md>> readers;
+  append(file, 0, 12, [&](int k) {
+    file.flush();
+    readers.push_back(std::make_unique<H5md>(path, Hdf5File::Access::read));
+    CHECK(readers.back()->frames() == static_cast<std::uint64_t>(k + 1));
+  });
+  for (std::size_t k = 0; k < readers.size(); ++k) {
+    Frame expected = frame_of(static_cast<int>(k));
+    expected.step = static_cast<std::int64_t>(k);
+    check_same(readers[k]->frames(k, 1).front(), expected);
+  }
+}
+
+TEST_CASE("A trajectory that is removed, or already there, is an error that names it") {
+  const Place place;
+  const fs::path path = place.path / "traj.h5";
+  H5mdTrajectory file(path, content, Existing::keep);
+  append(file, 0, 3, nothing);
+  file.flush();
+  CHECK_THROWS_WITH(H5mdTrajectory(path, content, Existing::keep),
+                    Catch::Contains("traj.h5: exists already"));
+  fs::remove(path);
+  const auto go_on = [&] {
+    file.append(frame_of(3));
+    file.sync();
+  };
+  CHECK_THROWS_WITH(go_on(), Catch::Contains("traj.h5: has been removed"));
+}
+
+TEST_CASE("A trajectory cut short anywhere is refused, never read in part") {
+  const Place place;
+  const fs::path path = place.path / "traj.h5", cut = place.path / "cut.h5";
+  const std::string whole = written_at_once(path);
+  for (std::size_t length = 0; length < whole.size(); length += whole.size() / 97) {
+    std::ofstream(cut, std::ios::binary) << whole.substr(0, length);
+    CHECK_THROWS_AS(file_info(cut), FileError);
+    CHECK_THROWS_AS(convert({cut, "csv", place.path / "never.csv"}), FileError);
+  }
+  CHECK_FALSE(fs::exists(place.path / "never.csv"));
+}

@@ -1,0 +1,53 @@
+/// How long steps are: what is learnt from one event to the next of its kind.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "integrators/march/rhythm.hpp"
+#include "integrators/march/step_control.hpp"
+#include "validation/support/run.hpp"
+
+using namespace treejet;
+
+TEST_CASE("Regular intervals foretell the next insertion, by their straight continuation") {
+  Rhythm rhythm;
+  CHECK(!rhythm.next(true));
+  double t = 0;
+  // with a held bead 2, 2.01, 2.02, without one 3 and 3.3
+  for (double interval : {2.0, 3.0, 2.01, 3.3, 2.02}) {
+    const bool held = interval < 3;
+    t += interval;
+    rhythm.insertion(held, t);
+  }
+  REQUIRE(rhythm.next(true));
+  CHECK(*rhythm.next(true) == Approx(t + 2.03).epsilon(1e-14));  // round-off of six sums
+  CHECK(!rhythm.next(false));
+}
+
+TEST_CASE("The first step after an event is the one that the last event of its kind would have allowed") {
+  constexpr int order = 6;
+  AdaptiveStep control(0.1, order);
+  const auto step = [&](double h, double error) { REQUIRE(control.accepts(0, h, error)); };
+  step(0.1, 0.3);
+  control.event(EventKind::place);
+  CHECK(control.proposal(0, 1) < 0.1);  // nothing is known yet of what follows a placement
+  const double first = control.proposal(0, 1), allowed = 0.9 * first * std::pow(0.5, -1. / order);
+  step(first, 0.5);
+  CHECK(control.proposal(0, 1) == Approx(allowed).epsilon(1e-14));
+  step(control.proposal(0, 1), 1e-8);  // what follows does not matter
+  control.event(EventKind::release);
+  step(control.proposal(0, 1), 1e-8);
+  control.event(EventKind::place);
+  CHECK(control.proposal(0, 1) == Approx(allowed).epsilon(1e-14));
+}
+
+TEST_CASE("Where the jet inserts and loses beads in a rhythm hardly any step is rejected or made anew") {
+  for (double tolerance : {1e-5, 1e-6, 1e-8}) {
+    Run<3> run(with_tolerance(example("pvp"), tolerance));
+    const Effort e = run.to(0.03);
+    CAPTURE(tolerance, e.steps, e.rejected, e.retaken);
+    CHECK(e.removed > 100);
+    // six steps a bead and more, of which three end on events: thrown away is less than one for four beads
+    CHECK(e.rejected + e.retaken < e.steps / 24);
+  }
+}

@@ -1,0 +1,261 @@
+/// Stiff chains: the block tridiagonal solver, the local Jacobian, the additive pair and the choice of it.
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "core/jet/stiffness.hpp"
+#include "forces/terms/surface_tension.hpp"
+#include "forces/terms/viscoelastic.hpp"
+#include "integrators/schemes/additive.hpp"
+#include "integrators/schemes/block_tridiagonal.hpp"
+#include "integrators/schemes/chain_solver.hpp"
+#include "validation/support/run.hpp"
+#include "validation/support/scenes.hpp"
+
+using namespace treejet;
+
+namespace {
+
+template <int B>
+double block_error(int n, unsigned seed) {
+  std::srand(seed);  // of Eigen's Random
+  BlockTridiagonal<B> system;
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n * B, n * B);
+  Eigen::VectorXd g = Eigen::VectorXd::Random(n * B);
+  std::vector<Eigen::Matrix<double, B, 1>> u;
+  for (int i = 0; i < n; ++i) {
+    using Block = typename BlockTridiagonal<B>::Block;
+    // diagonal blocks dominate as blocks; inside, rows are reversed, which no elimination without pivots
+    // survives
+    const Block dominant = (Block::Random() + 2 * B * Block::Identity()).colwise().reverse();
+    system.row.push_back({Block::Random(), dominant, Block::Random()});
+    dense.block<B, B>(i * B, i * B) = dominant;
+    if (i > 0) dense.block<B, B>(i * B, (i - 1) * B) = system.row.back().below;
+    if (i + 1 < n) dense.block<B, B>(i * B, (i + 1) * B) = system.row.back().above;
+    u.push_back(g.segment<B>(i * B));
+  }
+  system.factor();
+  system.solve(u);
+  const Eigen::VectorXd expected = dense.partialPivLu().solve(g);
+  double worst = 0;
+  for (int i = 0; i < n; ++i)
+    worst = std::max(worst, (u[i] - expected.segment<B>(i * B)).cwiseAbs().maxCoeff());
+  return worst;
+}
+
+/// Beads down a crooked line, stretching and shearing, under stress; masses differ.
+template <int D>
+Jet<D> crooked_jet(int n, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> between(-0.3, 0.3);
+  std::vector<Bead<D>> beads;
+  for (int i = 0; i < n; ++i) {
+    Vec<D> r, v;
+    for (int k = 0; k < D; ++k) r[k] = between(random), v[k] = between(random);
+    r[0] += 1.2 * (n - i);
+    v[0] += 0.8 * (n - i);
+    beads.push_back({r, v, 2 + 5 * between(random), 1 + between(random), 1});
+  }
+  return jet_of<D>(beads);
+}
+
+Parameters circling_nozzle() {
+  Parameters p = plain_parameters();
+  p.perturb = true;
+  p.perturb_frequency = 2;
+  p.perturb_amplitude = 0.1;
+  p.nozzle_velocity = 0.3;
+  return p;
+}
+
+template <int D>
+Eigen::VectorXd flat(const State<D>& y) {
+  return Eigen::Map<const Eigen::VectorXd>(y.data(), y.size());
+}
+
+/// The derivative of the slope by central differences, columns and rows in the order of `flat`.
+template <int D>
+Eigen::MatrixXd by_differences(RightHandSide<D>& f, const Jet<D>& jet) {
+  constexpr double step = 1e-5;  // truncation step^2 and round-off 1e-16 / step are both about 1e-10
+  Eigen::MatrixXd J(jet.y.size(), jet.y.size());
+  State<D> low, high;
+  for (Eigen::Index k = 0; k < jet.y.size(); ++k) {
+    State<D> y = jet.y;
+    y.data()[k] += step;
+    f(jet, 0.4, y, high);
+    y.data()[k] -= 2 * step;
+    f(jet, 0.4, y, low);
+    J.col(k) = flat<D>(high - low) / (2 * step);
+  }
+  return J;
+}
+
+/// The local Jacobian as a dense matrix, through the solver: 1 - s J from its inverse's columns.
+template <int D>
+Eigen::MatrixXd as_solved(RightHandSide<D>& f, const Jet<D>& jet, double s) {
+  LocalJacobian<D> J;
+  f.differentiate(jet, 0.4, jet.y, J);
+  ChainSolver<D> solver;
+  solver.factor(J, s);
+  const Eigen::Index m = jet.y.size();
+  Eigen::MatrixXd inverse(m, m);
+  for (Eigen::Index k = 0; k < m; ++k) {
+    State<D> unit = State<D>::Zero(jet.size(), 2 * D + 1);
+    unit.data()[k] = 1;
+    solver.solve(unit);
+    inverse.col(k) = flat<D>(unit);
+  }
+  return (Eigen::MatrixXd::Identity(m, m) - inverse.inverse()) / s;
+}
+
+template <int D>
+void check_jacobian(std::unique_ptr<StressLaw<D>> law) {
+  std::vector<std::unique_ptr<ForceTerm<D>>> terms;
+  terms.push_back(std::make_unique<Viscoelastic<D>>(1, 3));
+  EquationsOfMotion<D> f(Nozzle<D>(circling_nozzle()), std::move(law), std::move(terms), Threads{1});
+  for (int n : {1, 2, 7}) {
+    for (bool held : {false, true}) {
+      Jet<D> jet = crooked_jet<D>(n, 3);
+      jet.held = held;
+      const Eigen::MatrixXd J = by_differences<D>(f, jet);
+      CAPTURE(D, n, held);
+      // the differences' error 1e-9, and the inverse's, whose condition is below 1e3
+      CHECK((as_solved<D>(f, jet, 0.1) - J).cwiseAbs().maxCoeff() < 1e-8 * J.cwiseAbs().maxCoeff());
+    }
+  }
+}
+
+/// PVP case with modulus and viscosity multiplied.
+Parameters pvp(double modulus, double viscosity, double tolerance, Scheme scheme = Scheme::automatic) {
+  Parameters p = with_tolerance(example("pvp"), tolerance, scheme);
+  p.elastic_modulus *= modulus;
+  p.viscosity *= viscosity;
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("Block tridiagonal systems of any block size are solved as a dense solver does") {
+  for (int n : {1, 2, 3, 40}) {
+    CAPTURE(n);
+    // round-off; the blocks' condition is below 10
+    CHECK(block_error<1>(n, 1) < 1e-14);
+    CHECK(block_error<3>(n, 2) < 1e-14);
+    CHECK(block_error<7>(n, 3) < 1e-14);
+  }
+}
+
+TEST_CASE("The local Jacobian of Maxwell chains is the derivative of their slope") {
+  check_jacobian<1>(std::make_unique<Maxwell<1>>());
+  check_jacobian<3>(std::make_unique<Maxwell<3>>());
+}
+
+TEST_CASE("The local Jacobian of Herschel-Bulkley chains is the derivative of their slope") {
+  check_jacobian<1>(std::make_unique<HerschelBulkley<1>>(0.2, 1.3, 0.7));
+  check_jacobian<3>(std::make_unique<HerschelBulkley<3>>(0.2, 1.3, 1.6));
+}
+
+TEST_CASE("The additive tableaux share abscissae and weights, and meet the conditions of order 5 and 4") {
+  using T = KennedyCarpenter5;
+  Eigen::Matrix<double, 8, 8> part[2];
+  Eigen::Matrix<double, 8, 1> b[2], c;
+  for (int i = 0; i < 8; ++i) {
+    b[0][i] = T::b[i];
+    b[1][i] = T::partner[i];
+    c[i] = T::c[i];
+    for (int j = 0; j < 8; ++j) {
+      part[0](i, j) = T::explicit_part[i][j];
+      part[1](i, j) = T::implicit_part[i][j];
+    }
+  }
+  const double digits = 1e-14;  // the coefficients have 16
+  for (const auto& A : part) CHECK((A.rowwise().sum() - c).cwiseAbs().maxCoeff() < digits);
+  CHECK((part[1].row(7).transpose() - b[0]).cwiseAbs().maxCoeff() < digits);
+
+  const auto power = [&](int k) { return Eigen::Matrix<double, 8, 1>(c.array().pow(k)); };
+  for (int k = 0; k < 5; ++k) {
+    CHECK(b[0].dot(power(k)) == Approx(1. / (k + 1)).epsilon(digits));
+    if (k < 4) CHECK(b[1].dot(power(k)) == Approx(1. / (k + 1)).epsilon(digits));
+  }
+  const auto times_c = [&](const Eigen::Matrix<double, 8, 1>& u) {
+    return Eigen::Matrix<double, 8, 1>(u.array() * c.array());
+  };
+  const double loose = 1e-13;  // sums of products of up to five coefficients of size 1
+  for (const auto& A : part) {
+    for (int partner : {0, 1}) {
+      CAPTURE(partner);
+      CHECK(b[partner].dot(A * c) == Approx(1. / 6).epsilon(loose));
+      CHECK(b[partner].dot(times_c(A * c)) == Approx(1. / 8).epsilon(loose));
+      CHECK(b[partner].dot(A * power(2)) == Approx(1. / 12).epsilon(loose));
+      for (const auto& B : part) CHECK(b[partner].dot(A * B * c) == Approx(1. / 24).epsilon(loose));
+    }
+    CHECK(b[0].dot(times_c(times_c(A * c))) == Approx(1. / 10).epsilon(loose));
+    CHECK(b[0].dot(times_c(A * power(2))) == Approx(1. / 15).epsilon(loose));
+    CHECK(b[0].dot(A * power(3)) == Approx(1. / 20).epsilon(loose));
+    for (const auto& B : part) {
+      CHECK((A * c).cwiseProduct(B * c).dot(b[0]) == Approx(1. / 20).epsilon(loose));
+      CHECK(b[0].dot(times_c(A * B * c)) == Approx(1. / 30).epsilon(loose));
+      CHECK(b[0].dot(A * times_c(B * c)) == Approx(1. / 40).epsilon(loose));
+      CHECK(b[0].dot(A * B * power(2)) == Approx(1. / 60).epsilon(loose));
+      for (const auto& C : part) CHECK(b[0].dot(A * B * C * c) == Approx(1. / 120).epsilon(loose));
+    }
+  }
+}
+
+TEST_CASE("The step of the additive pair is not bound by the relaxation time, that of an explicit pair is") {
+  // Relaxation time 0.4 us, a bead in about 120 us: stability binds Verner's pair to some 70 steps a bead.
+  Run<3> explicit_run(pvp(1000, 1, 1e-3, Scheme::verner6)),
+      additive_run(pvp(1000, 1, 1e-3, Scheme::kencarp5));
+  const Effort by_explicit = explicit_run.to(2e-3), by_additive = additive_run.to(2e-3);
+  CHECK(by_explicit.placed == by_additive.placed);
+  CHECK(by_explicit.steps > 5 * by_additive.steps);
+  // a hundredth of what a step may have at this tolerance
+  CHECK(additive_run.x() == Approx(explicit_run.x()).epsilon(1e-3));
+}
+
+TEST_CASE("The additive pair follows its tolerance in a stiff scene") {
+  const double t = 1e-3;  // some 8 beads
+  Run<3> reference(pvp(1000, 1, 1e-11, Scheme::verner6));
+  reference.to(t);
+  double before = 1;
+  for (double tolerance : {1e-4, 1e-6, 1e-8}) {
+    Run<3> run(pvp(1000, 1, tolerance, Scheme::kencarp5));
+    run.to(t);
+    const double error = std::abs(run.x() - reference.x());
+    CAPTURE(tolerance, error, before);
+    // a hundredth of the tolerance buys at least a third of the error, and stays below 1000 times it
+    CHECK(error < before / 3);
+    CHECK(error < 1000 * tolerance);
+    before = error;
+  }
+}
+
+TEST_CASE("Auto takes the additive pair for stiff scenes only, and says why") {
+  const Parameters stiff = pvp(1000, 1, 1e-6), plain = pvp(1, 1, 1e-6), slow = pvp(1, 1000, 1e-6);
+  CHECK(chosen_scheme(stiff) == Scheme::kencarp5);
+  CHECK(chosen_scheme(pvp(1000, 1000, 1e-6)) == Scheme::kencarp5);
+  CHECK(chosen_scheme(plain) == Scheme::verner6);
+  CHECK(chosen_scheme(slow) == Scheme::verner6);
+  CHECK(chosen_scheme(pvp(1000, 1, 1e-6, Scheme::dopri5)) == Scheme::dopri5);
+  CHECK_THAT(steps_description(stiff), Catch::Contains("stiff"));
+  CHECK_THAT(steps_description(plain), Catch::Contains("not stiff"));
+}
+
+TEST_CASE("Two rates are left out of scenes that are solved for, or whose stress relaxes between two beads") {
+  const auto multirate = [](double modulus) {
+    Parameters p = pvp(modulus, 1, 1e-6);
+    p.multirate = Multirate::automatic;
+    return compose<3>(p, {1}).multirate != nullptr;
+  };
+  CHECK(multirate(1));
+  CHECK_FALSE(multirate(20));    // Verner's pair, but interval / tau = 6.5
+  CHECK_FALSE(multirate(1000));  // the additive pair
+}
+
+TEST_CASE("The estimate of the fastest rate: relaxation in viscous chains, waves in elastic ones") {
+  // tau = 0.4 us: 1 / tau, less the share of the viscous mode; tau = 0.4 ms: omega = 2 / l sqrt(G / rho)
+  CHECK(stiffness(pvp(1000, 1, 1e-6)).fastest_rate == Approx(2.5e6).epsilon(0.15));
+  CHECK(stiffness(pvp(1000, 1000, 1e-6)).fastest_rate ==
+        Approx(100 * std::sqrt(5e7 / 0.839253525)).epsilon(1e-9));
+}

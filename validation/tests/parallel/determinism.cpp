@@ -1,0 +1,92 @@
+/// The bits of a result do not depend on the number of threads.
+
+#include <catch2/catch.hpp>
+
+#include "validation/support/run.hpp"
+
+using namespace treejet;
+
+namespace {
+
+/// A coil of 1500 beads with uneven velocities and stresses, enough for five threads.
+Jet<3> coil(const Run<3>& run) {
+  Jet<3> jet;
+  jet.y.resize(0, Eigen::NoChange);
+  for (int i = 1500; i >= 1; --i) {
+    const double s = 0.6 * i, turn = 0.05 * i;
+    const Vec<3> r(s, 3 * std::cos(turn) - 3, 2 * std::sin(turn));
+    append<3>(jet, r, Vec<3>(std::sin(s), std::cos(2 * s), std::sin(3 * s)), std::cos(s), 1, 1);
+  }
+  jet.t = 0.3;
+  jet.held = run.jet().held;
+  return jet;
+}
+
+template <int D>
+bool same_bits(const State<D>& a, const State<D>& b) {
+  return a.rows() == b.rows() && (a == b).all();
+}
+
+}  // namespace
+
+TEST_CASE("The slopes of 1500 beads have the same bits on 1, 2, 3 and 4 threads") {
+  State<3> one;
+  for (int threads : {1, 2, 3, 4}) {
+    Run<3> run(example("pvp"), {threads});
+    const Jet<3> jet = coil(run);
+    State<3> dy;
+    (*run.scene.motion)(jet, jet.t, jet.y, dy);
+    REQUIRE(dy.isFinite().all());
+    if (threads == 1) one = dy;
+    CHECK(same_bits<3>(dy, one));
+  }
+}
+
+TEST_CASE("A cut off Coulomb sum has the same bits on any number of threads, too") {
+  Parameters p = example("pvp");
+  p.cutoff = 1;
+  State<3> one;
+  for (int threads : {1, 2, 3, 4}) {
+    Run<3> run(p, {threads});
+    const Jet<3> jet = coil(run);
+    State<3> dy;
+    (*run.scene.motion)(jet, jet.t, jet.y, dy);
+    if (threads == 1) one = dy;
+    CHECK(same_bits<3>(dy, one));
+  }
+}
+
+TEST_CASE("A run with insertions and removals on several threads has the bits of one thread") {
+  // a fine resolution, so that four threads' worth of beads are on the jet
+  Parameters p = example("pvp");
+  p.external_potential /= 16;
+  p.collector_distance = 1;
+  p.initial_length = 1;
+  p.points = 1100;
+  p.nozzle_cross = 5e-4;
+  State<3> one;
+  Effort effort;
+  for (int threads : {1, 2, 3, 4}) {
+    Run<3> run(with_steps(p, Scheme::heun, 1e-6), {threads});
+    run.scene.jet.y.col(velocity_column<3>) =
+        200 / run.unit.velocity;  // drawn out at full speed: 5 us a bead
+    const Effort now = run.to(2e-5);
+    REQUIRE(run.jet().size() >= 4 * beads_worth_a_thread);  // so that each number of threads is another one
+    if (threads == 1) one = run.jet().y, effort = now;
+    CHECK(now.placed == effort.placed);
+    CHECK(now.removed == effort.removed);
+    CHECK(same_bits<3>(run.jet().y, one));
+  }
+  CHECK(effort.removed > 0);
+  CHECK(effort.released > 0);
+}
+
+TEST_CASE("Two runs of the same deck have the same bits") {
+  State<3> first;
+  for (int again : {0, 1}) {
+    Run<3> run(with_tolerance(example("pvp"), 1e-6));
+    run.to(2e-3);
+    if (again == 0) first = run.jet().y;
+    CHECK(same_bits<3>(run.jet().y, first));
+  }
+}

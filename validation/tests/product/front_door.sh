@@ -1,0 +1,202 @@
+#!/bin/sh
+# The program as a user meets it: exit codes, what is written and what is not. Usage: front_door.sh TREEJET SOURCE_TREE
+set -u
+treejet=$1
+source=$2
+work=$(mktemp -d)
+trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
+is() { [ "$2" = "$3" ] || fail "$1: expected '$3', found '$2'"; }
+
+# expect CODE WHAT COMMAND...: the exit code; output stays in out and err
+expect() {
+  code=$1 what=$2
+  shift 2
+  "$@" >out 2>err
+  is "exit code of $what" $? "$code"
+}
+
+# A short run of the PVP jet: 0.5 ms, rows every 0.1 ms, frames of 12 lines every 0.25 ms.
+pvp=$source/examples/pvp/input.dat
+threads=1
+short() { "$treejet" run "$pvp" --threads $threads --set "final time 5.d-4" --set "print time 1.d-4" --set "print xyz 2.5d-4" --set "print xyz maxnum 12" "$@"; }
+
+expect 0 "a run" short --out a
+is "files of a run" "$(ls a | tr '\n' ' ')" "run.json statdat.dat traj.xyz "
+is "first line of statdat.dat" "$(head -1 a/statdat.dat)" "# t[s] x[cm] yz[cm] n[1] vn[cm/s] vc[cm/s] curn[statC/s] curc[statC/s] rc[cm] rrr[1] lp[cm] angl[degree]"
+is "rows of statdat.dat" "$(grep -vc '^#' a/statdat.dat)" 6
+is "numbers in each row" "$(grep -v '^#' a/statdat.dat | awk '{print NF}' | sort -u)" 12
+is "times of the rows" "$(grep -v '^#' a/statdat.dat | awk '{printf "%.1f ", $1 * 1e4}')" "0.0 1.0 2.0 3.0 4.0 5.0 "
+is "frames of traj.xyz" "$(grep -c '^t = ' a/traj.xyz)" 3
+is "lines of traj.xyz" "$(wc -l <a/traj.xyz | tr -d ' ')" $((3 * 14))
+is "line counts of the frames" "$(awk 'NR % 14 == 1' a/traj.xyz | sort -u)" 12
+is "first frame" "$(sed -n 3,5p a/traj.xyz | tr '\n' ';')" "C 0.02 0 0;C 0 0.001 0;C 0 0 0;"
+is "padding of the first frame" "$(sed -n 3,14p a/traj.xyz | grep -c '^C 0 0 0$')" 10
+grep -q 'x\[cm\]' out || fail "the terminal shows no table"
+grep -q '^done in' out || fail "the terminal shows no summary"
+
+cp a/statdat.dat before
+expect 4 "a run over existing results" short --out a
+cmp -s before a/statdat.dat || fail "existing results were touched"
+grep -q -- --force err || fail "the message does not tell of --force"
+expect 0 "a run with --force" short --out a --force
+cmp -s before a/statdat.dat || fail "the same run gave other numbers"
+
+expect 0 "a quiet run" short --out quiet --quiet
+is "what a quiet run prints" "$(cat out err)" ""
+cmp -s before quiet/statdat.dat || fail "a quiet run gave other numbers"
+
+expect 0 "a run with --set" short --out set --set "external potential 20."
+cmp -s before set/statdat.dat && fail "--set changed nothing"
+
+expect 0 "a run without outputs" "$treejet" run "$source/examples/single-bead/input.dat" --quiet --out none --set "final time 1.d-6" --set "print time 1.d-7"
+is "files of a run that asks for statdat.dat only" "$(ls none | tr '\n' ' ')" "run.json statdat.dat "
+
+expect 0 "a run with a tree" short --out tree --set "points 600" --set "initial length 12" --set "coulomb tree" --set "coulomb accuracy 1.d-4" --set "printstat list t n ferr ferrmax"
+grep -q '^# t = .*tree of order' tree/statdat.dat || fail "statdat.dat does not tell how the forces were computed"
+grep -q '^forces: .*asked for 0.0001' out || fail "the summary does not tell the force error"
+is "warnings of a run with a tree" "$(grep -c warning err)" 0
+expect 0 "a run that misses its accuracy" short --out missed --set "points 600" --set "initial length 12" --set "coulomb tree" --set "coulomb accuracy 1.d-9" --set "coulomb order 2" --set "coulomb opening 0.9"
+grep -q 'warning.*accuracy' err || fail "a missed accuracy is not warned of"
+grep -q 'ACCURACY MISSED' out || fail "the summary does not tell of a missed accuracy"
+
+sed 's/viscosity/viscosty/' "$pvp" >misspelt.dat
+expect 2 "a misspelt directive" "$treejet" run misspelt.dat --out wrong
+grep -q 'misspelt.dat:[0-9]*:.*viscosity' err || fail "the message does not lead to viscosity: $(cat err)"
+[ -e wrong ] && fail "a wrong deck left something behind"
+expect 2 "a misspelt override" short --out wrong --set "viscosty 3"
+[ -e wrong ] && fail "a wrong override left something behind"
+expect 2 "an unknown option" "$treejet" run "$pvp" --fast
+expect 2 "no command" "$treejet"
+expect 2 "a wrong number of threads" short --out wrong --threads 0
+expect 4 "a deck that is not there" "$treejet" run nowhere.dat
+grep -q nowhere.dat err || fail "the message does not name the deck"
+
+touch file
+expect 4 "a directory that cannot be made" short --out file/below
+grep -q 'file' err || fail "the message does not name the directory"
+if [ "$(id -u)" != 0 ]; then
+  mkdir locked && chmod a-w locked
+  expect 4 "a directory without permission to write" short --out locked
+fi
+[ -w /dev/full ] && mkdir full && ln -s /dev/full full/statdat.dat && expect 4 "a full disk" short --out full --force
+
+# A run of some tenths of a second that is stopped, or disturbed, once it has written a few rows.
+long() { "$treejet" run "$pvp" --quiet --set "final time 4.d-2" --set "print time 1.d-4" --set "print xyz 2.d-4" "$@"; }
+begun() { until [ -e "$1/statdat.dat" ] && [ "$(grep -vc "^#" "$1/statdat.dat")" -gt 9 ]; do sleep 0.01; done; }
+same() { for file in statdat.dat traj.xyz; do cmp -s "whole/$file" "$1/$file" || fail "$file of $2 differs from the uninterrupted run's"; done; }
+
+# disturbed DIRECTORY COMMAND: the exit code of such a run; once more if it ended before the command came, as on a busy machine
+disturbed() {
+  for attempt in 1 2 3 4 5; do
+    rm -rf "$1"
+    # a background job of sh starts with SIGINT ignored, which the program respects
+    env --default-signal=INT "$treejet" run "$pvp" --quiet --set "final time 4.d-2" --set "print time 1.d-4" --set "print xyz 2.d-4" --out "$1" 2>err &
+    run=$!
+    begun "$1"
+    eval "$2" 2>/dev/null
+    wait $run && continue
+    return $?
+  done
+}
+
+expect 0 "a run left alone" long --out whole
+for signal in TERM USR1 INT; do
+  disturbed $signal "kill -$signal \$run"
+  is "exit code of a run stopped by $signal" $? 75
+  grep -q "SIG$signal.*treejet run --resume $signal" err || fail "the message does not tell how to go on: $(cat err)"
+  expect 4 "starting over where a run was stopped" long --out $signal
+  grep -q -- --resume err || fail "the message does not tell of --resume"
+  expect 0 "going on after $signal" "$treejet" run --resume $signal --quiet --threads 2
+  same $signal "a run stopped by $signal"
+  is "files of a run stopped by $signal" "$(ls $signal | tr '\n' ' ')" "run.json statdat.dat traj.xyz "
+done
+expect 4 "resuming a run that has ended" "$treejet" run --resume TERM
+
+expect 75 "a run with no time" long --out late --walltime 0.001
+expect 2 "resuming with another deck" "$treejet" run --resume late "$pvp" --set "viscosity 30"
+grep -q 'viscosity: 30 here, 20 there' err || fail "the message does not name the difference: $(cat err)"
+expect 2 "--resume with --out" "$treejet" run --resume late --out elsewhere
+expect 2 "a malformed walltime" long --out wrong --walltime 1:70:00
+head -c 100 late/checkpoint >cut && mv cut late/checkpoint
+expect 4 "resuming from a checkpoint cut short" "$treejet" run --resume late
+grep -q 'late/checkpoint: cut short' err || fail "the message does not tell what is wrong: $(cat err)"
+
+# A disk that fills up in the middle of the trajectory, and has room again later.
+(ulimit -f 400 && long --out filled --set "checkpoint 0.01" 2>err)
+is "exit code with the disk full" $? 4
+grep -q 'filled/.*: writing failed: File too large' err || fail "the message does not name the file: $(cat err)"
+for file in statdat.dat traj.xyz; do
+  sed '/^##/d' filled/$file >left  # the decks differ in the checkpoints
+  sed '/^##/d' whole/$file | head -c "$(wc -c <left)" | cmp -s - left || fail "$file was damaged when the disk was full"
+done
+expect 0 "going on with room on the disk" "$treejet" run --resume filled --quiet
+for file in statdat.dat traj.xyz; do
+  sed '/^##/d' filled/$file >left
+  sed '/^##/d' whole/$file | cmp -s - left || fail "$file of a run that had filled the disk differs from the uninterrupted run's"
+done
+
+disturbed removed "rm removed/traj.xyz"
+is "exit code with a file removed" $? 4
+grep -q 'removed/traj.xyz: was removed' err || fail "the message does not name the file removed: $(cat err)"
+
+# steps a thousand times too large
+expect 3 "a numerical failure" "$treejet" run "$pvp" --out stopped --quiet --set "integrator 2" --set "timestep 1.d-3" --set "final time 5.d-2" --set "print time 1.d-3"
+grep -q 'bead' err && grep -q 'time' err && grep -q 'likely cause' err || fail "the message names no bead, time or cause: $(cat err)"
+[ "$(grep -vc '^#' stopped/statdat.dat)" -ge 1 ] || fail "rows before a numerical failure were lost"
+grep -qi nan stopped/statdat.dat && fail "statdat.dat holds NaN"
+
+# What a run leaves can be drawn, where there is matplotlib.
+if /usr/bin/python3 -c 'import matplotlib' 2>/dev/null; then
+  expect 0 "the pictures of a run" /usr/bin/python3 "$source/validation/pictures/plot_run.py" a --out drawn
+  is "pictures of a run" "$(ls drawn | tr '\n' ' ')" "history.png jet.png "
+fi
+
+# The HDF5 trajectory, and what else it can become.
+hdf5() { short --quiet --set "print hdf5 1.d-4" "$@"; }
+expect 0 "a run with print hdf5" hdf5 --out h5
+is "files of a run with print hdf5" "$(ls h5 | tr '\n' ' ')" "run.json statdat.dat traj.h5 traj.xdmf traj.xyz "
+threads=2
+expect 0 "the same again on two threads" hdf5 --out h5again
+threads=1
+for file in statdat.dat traj.h5 traj.xdmf traj.xyz; do
+  cmp -s h5/$file h5again/$file || fail "$file differs from run to run"
+done
+expect 4 "a run over an HDF5 trajectory" hdf5 --out h5
+for format in xyz extxyz csv vtp; do
+  expect 0 "convert --to $format" "$treejet" convert h5/traj.h5 --to $format --out as-$format
+  expect 4 "convert over an existing file" "$treejet" convert h5/traj.h5 --to $format --out as-$format
+done
+is "lines of the CSV file" "$(wc -l <as-csv | tr -d ' ')" "$(($(grep -c '^C\|^[0-9]* [CX] ' as-extxyz) + 1))"
+is "frames for ParaView" "$(ls as-vtp-frames | wc -l | tr -d ' ')" 6
+expect 2 "convert to an unknown format" "$treejet" convert h5/traj.h5 --to pdb
+expect 4 "convert of a foreign file" "$treejet" convert h5/traj.xyz --to csv
+expect 4 "convert of no file" "$treejet" convert nowhere.h5 --to csv
+expect 75 "a run stopped at once" hdf5 --out later --walltime 0.001
+for file in h5/traj.h5 h5/traj.xdmf h5/statdat.dat h5/traj.xyz h5/run.json as-xyz as-extxyz as-csv as-vtp as-vtp-frames/000003.vtp later/checkpoint; do
+  expect 0 "info $file" "$treejet" info $file
+  head -c $(($(wc -c <$file) * 2 / 3)) $file >cut
+  expect 4 "info of two thirds of $file" "$treejet" info cut
+  grep -Eq 'cut: (cut short|cannot be read: truncated)' err || fail "the message does not tell that $file is cut short: $(cat err)"
+done
+for file in h5/traj.h5 h5/statdat.dat h5/run.json; do
+  "$treejet" info $file | grep -q 'elastic modulus' || fail "$file does not tell the deck"
+  "$treejet" info $file | grep -q 'print hdf5 1.d-4' || fail "$file does not tell the overrides"
+done
+expect 4 "info of a foreign file" "$treejet" info "$source/README.md"
+
+expect 0 "check" "$treejet" check "$pvp"
+grep -q 'surface tension' out || fail "check does not tell what is composed"
+is "files left by check" "$(ls | grep -c statdat)" 0
+expect 0 "template" "$treejet" template
+cp out template.dat
+expect 0 "check of the template" "$treejet" check template.dat
+expect 0 "--version" "$treejet" --version
+grep -q '^treejet [0-9]' out || fail "--version shows no version"
+expect 0 "--help" "$treejet" --help
+grep -q 'Exit codes' out || fail "--help does not teach the exit codes"
+
+[ $failures = 0 ] || exit 1

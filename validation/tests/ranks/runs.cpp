@@ -1,0 +1,128 @@
+#include <catch2/catch.hpp>
+
+#include "forces/distributed/chain_decomposition.hpp"
+#include "validation/support/run.hpp"
+#include "validation/tests/ranks/ranked.hpp"
+
+using namespace treejet;
+
+namespace {
+
+using Directives = std::vector<std::string>;
+
+Parameters stream(int points, const Directives& steps, const Directives& more = {}) {
+  Directives all = {"final time 1", "print time 1", "printstat list t", "perturb ampl 1.d-3",
+                    fmt::format("points {}", points)};
+  all.insert(all.end(), steps.begin(), steps.end());
+  all.insert(all.end(), more.begin(), more.end());
+  return read_deck(TREEJET_SOURCE_DIR "/validation/decks/stream.dat", all).parameters;
+}
+
+Directives in_pieces(const std::string& accuracy) {
+  return {"parallel distributed", "multirate no", "coulomb tree", "coulomb accuracy " + accuracy};
+}
+
+struct Flight {
+  std::vector<Jet<3>> jets;  ///< whole ones, on the first rank
+  Effort effort;
+  int recuts = 0;
+  double t = 0;
+};
+
+Flight flight(const Parameters& p, const Ranks& ranks, double seconds, double interval) {
+  Run<3> run(p, {1}, ranks);
+  Snapshots<3> snapshots(interval / run.unit.time);
+  snapshots.sample_whole(run.scene.decomposition());
+  Flight f;
+  f.effort = run.to(seconds, {&snapshots});
+  f.jets = snapshots.jets;
+  if (const auto* pieces = dynamic_cast<const ChainDecomposition*>(&run.scene.decomposition()))
+    f.recuts = pieces->recuts();
+  f.t = run.jet().t;
+  return f;
+}
+
+/// The largest difference of a coordinate, against the distance from nozzle to collector; 1e300 if the beads
+/// are not the same ones.
+double difference(const Flight& a, const Flight& b, const Parameters& p) {
+  if (a.jets.size() != b.jets.size()) return 1e300;
+  double largest = 0;
+  for (std::size_t k = 0; k < a.jets.size(); ++k) {
+    if (a.jets[k].size() != b.jets[k].size() || a.jets[k].removed != b.jets[k].removed) return 1e300;
+    largest = std::max(largest, (a.jets[k].y.leftCols<3>() - b.jets[k].y.leftCols<3>()).abs().maxCoeff());
+  }
+  return largest * scales(p).length / p.collector_distance;
+}
+
+/// What the first rank has found, to all.
+double told_by_first(double found, const Ranks& ranks) {
+  double value = ranks.first() ? found : 0;
+  ranks.sum({&value, 1});
+  return value;
+}
+
+}  // namespace
+
+TEST_CASE("A run of pieces is the replicated one through insertions, removals and new cuts") {
+  const Ranks& ranks = started_ranks();
+  const double seconds = 1e-3, interval = 2e-4;
+  const Flight whole = flight(stream(60, {"tolerance 1.d-7", "multirate no"}), {}, seconds, interval);
+  const Parameters p = stream(60, {"tolerance 1.d-7"}, in_pieces("1.d-6"));
+  const Flight pieces = flight(p, ranks, seconds, interval);
+  CHECK(pieces.effort.released > 10);
+  CHECK(pieces.effort.removed > 10);
+  if (ranks.size() > 1) CHECK(pieces.recuts > 0);
+  // a millionth of the field moves no bead by more than that part of its way
+  CHECK(told_by_first(difference(pieces, whole, p), ranks) < 1e-6);
+  CHECK(ranks.agree(fmt::format("{} {} {}", pieces.t, pieces.effort.steps, pieces.effort.removed)));
+}
+
+TEST_CASE("A run of pieces that see each other through expansions keeps the accuracy") {
+  const Ranks& ranks = started_ranks();
+  const double seconds = 2e-5, interval = 1e-5;
+  const Directives steps = {"timestep 1.d-6", "integrator heun"};
+  const Flight whole = flight(stream(900, steps), {}, seconds, interval);
+  const Parameters p = stream(900, steps, in_pieces("1.d-4"));
+  const Flight pieces = flight(p, ranks, seconds, interval);
+  CHECK(pieces.effort.removed > 2);
+  const double apart = told_by_first(difference(pieces, whole, p), ranks);
+  CHECK(apart > 0);
+  // the Coulomb force moves beads by less than a thousandth of the way meanwhile, and is 1e-4 off
+  CHECK(apart < 1e-7);
+}
+
+TEST_CASE("Pieces of a jet of one bead, and of one that empties") {
+  const Ranks& ranks = started_ranks();
+  // from a single bead to several, with more ranks than beads
+  Parameters p = stream(2, {"tolerance 1.d-6"}, in_pieces("1.d-5"));
+  p.points = 1;
+  p.initial_length = 0.1;
+  Parameters alone = p;
+  alone.parallel = ParallelData::replicated;
+  alone.coulomb = CoulombSum::direct;
+  const Flight pieces = flight(p, ranks, 4e-3, 1e-3), whole = flight(alone, {}, 4e-3, 1e-3);
+  CHECK(pieces.effort.released > 3);
+  CHECK(told_by_first(difference(pieces, whole, p), ranks) < 1e-5);  // the accuracy of the field, as above
+  // nothing follows what leaves
+  p = stream(6, {"tolerance 1.d-6"}, in_pieces("1.d-5"));
+  p.inserting = false;
+  p.perturb = false;
+  const Flight emptied = flight(p, ranks, 1e-2, 1e-3);
+  CHECK(emptied.effort.removed == 6);
+}
+
+TEST_CASE("Every rank knows which beads it holds, however many there are") {
+  const Ranks& ranks = started_ranks();
+  for (int beads : {1, 2, 5, 9, 100}) {
+    const ChainDecomposition pieces(beads, ranks);
+    const std::vector<int> rows = pieces.rows();
+    const Rows own = pieces.own();
+    bool right = rows.front() == 0 && rows.back() == beads - 1 && own.last <= static_cast<int>(rows.size());
+    for (int i = own.first + 1; i < own.last; ++i)
+      right = right && rows[static_cast<std::size_t>(i)] == rows[static_cast<std::size_t>(i) - 1] + 1;
+    double count = own.size();
+    ranks.sum({&count, 1});
+    CHECK(count == beads);
+    CHECK(ranks.greatest(right ? 0 : 1) == 0);
+  }
+}
