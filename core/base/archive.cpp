@@ -34,6 +34,13 @@ std::size_t Archive::counted(std::size_t count, std::size_t size) {
   return count;
 }
 
+std::int64_t Archive::counted_columns(std::int64_t count) {
+  constexpr std::int64_t most = 1024;
+  block(&count, sizeof count);
+  if (count < 0 || count > most) other_layout();
+  return count;
+}
+
 void Archive::expect_end() const {
   if (at_ != source_->size()) other_layout();
 }

@@ -15,7 +15,7 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <concepts>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -45,15 +45,19 @@ class Archive {
   void block(void* data, std::size_t size);
   /// The number of elements of `size` bytes each that follow; when writing, `count`.
   std::size_t counted(std::size_t count, std::size_t size);
+  /// The number of columns of a table that follows; when writing, `count`.
+  std::int64_t counted_columns(std::int64_t count);
 
   template <class T>
   void one(T& value) {
-    if constexpr (std::derived_from<T, Eigen::PlainObjectBase<T>>) {
-      static_assert(T::ColsAtCompileTime != Eigen::Dynamic);
-      constexpr std::size_t row = std::size_t{T::ColsAtCompileTime} * sizeof(typename T::Scalar);
+    if constexpr (requires { [](const Eigen::DenseBase<typename T::PlainObject>&) {}(value); }) {
+      constexpr bool any_columns = T::ColsAtCompileTime == Eigen::Dynamic;
+      std::int64_t columns = value.cols();
+      if constexpr (any_columns) columns = counted_columns(columns);
+      const std::size_t row = static_cast<std::size_t>(columns) * sizeof(typename T::Scalar);
       const std::size_t rows = counted(static_cast<std::size_t>(value.rows()), row);
       if constexpr (T::RowsAtCompileTime == Eigen::Dynamic)
-        if (reading()) value.resize(static_cast<Eigen::Index>(rows), T::ColsAtCompileTime);
+        if (reading()) value.resize(static_cast<Eigen::Index>(rows), columns);
       block(value.data(), static_cast<std::size_t>(value.rows()) * row);
     } else if constexpr (requires { value.visit(*this); }) {
       value.visit(*this);

@@ -3,9 +3,9 @@
 ///
 /// Points are the beads, oldest first, and then the nozzle, so that the polygon through the points is the
 /// jet. A bead's id counts the beads since the start from 1; the nozzle has id 0. Quantities of an element -
-/// stress, radius a = a_0 sqrt(l_step / l) - stand at its lower end; the nozzle has stress 0, mass 0, radius
-/// a_0 and the charge it stands for in the Coulomb sum, that of a bead. A held bead (core/jet/nozzle.hpp) is
-/// no point yet.
+/// stress, radius a = a_0 sqrt(V l_step / l) - stand at its lower end; the nozzle has stress 0, mass 0,
+/// radius a_0 and the charge it stands for in the Coulomb sum, that of a bead. A held bead
+/// (core/jet/nozzle.hpp) is no point yet.
 
 #include <array>
 #include <cmath>
@@ -64,7 +64,7 @@ Frame frame(const Jet<D>& jet, const Nozzle<D>& nozzle, const Scales& scales, do
     stress.push_back(jet.y(i, stress_column<D>) * scales.stress);
     charge.push_back(jet.charge[i] * scales.charge);
     mass.push_back(jet.mass[i] * scales.mass);
-    radius.push_back(nozzle_radius * std::sqrt(nozzle.l_step() / (r - upper).norm()));
+    radius.push_back(nozzle_radius * std::sqrt(jet.volume[i] * nozzle.l_step() / (r - upper).norm()));
   }
   f.id.push_back(0);
   add(position, end, scales.length);

@@ -48,18 +48,19 @@ TREEJET_SIMD_CLONES void set_between_rows(Elements<D> element, std::array<const 
 }  // namespace
 
 template <int D>
-void set_elements(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, double t, const State<D>& y,
+void set_elements(Chain<D>& chain, const Jet<D>& jet, const State<D>& y,
                   std::pair<Eigen::Index, Eigen::Index> rows) {
   const auto [first, last] = rows;
   const Eigen::Index n = y.rows(), m = last - first;
   chain.stress.segment(first, m) = y.col(stress_column<D>).segment(first, m);
   chain.inverse_mass.segment(first, m) = jet.mass.segment(first, m).inverse();
+  chain.volume.segment(first, m) = jet.volume.segment(first, m);
 
   const Elements<D> element{columns<D>(chain.tangent), chain.inverse_length.data(), chain.strain_rate.data()};
   set_between_rows<D>(element, columns<D>(y), columns<D>(y, velocity_column<D>),
                       {first, std::min(last, n - 1)});
   if (last < n) return;
-  const Vec<D> above = chain.point.row(chain.points() - 1).transpose(), v_above = nozzle.velocity(t);
+  const Vec<D> above = chain.point.row(chain.points() - 1).transpose(), v_above = chain.nozzle_velocity;
   std::array<double, D> d, w;
   for (int k = 0; k < D; ++k) {
     d[k] = y(n - 1, k) - above[k];
@@ -68,9 +69,9 @@ void set_elements(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, d
   element.set(n - 1, d, w);
 }
 
-template void set_elements<1>(Chain<1>&, const Jet<1>&, const Nozzle<1>&, double, const State<1>&,
+template void set_elements<1>(Chain<1>&, const Jet<1>&, const State<1>&,
                               std::pair<Eigen::Index, Eigen::Index>);
-template void set_elements<3>(Chain<3>&, const Jet<3>&, const Nozzle<3>&, double, const State<3>&,
+template void set_elements<3>(Chain<3>&, const Jet<3>&, const State<3>&,
                               std::pair<Eigen::Index, Eigen::Index>);
 
 }  // namespace treejet

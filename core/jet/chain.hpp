@@ -6,7 +6,10 @@
 /// i to its upper neighbour; that of bead n-1 is the nozzle even while a bead is held:
 ///     l_i = |r_i - r_up|,   t_i = (r_i - r_up) / l_i   (away from the nozzle),   strain rate = (v_i -
 ///     v_up).t_i / l_i.
-/// Volume is conserved, pi a_i^2 l_i = pi a_0^2 l_step. Scaled. Source: paper, Sec. "Equations of motion".
+/// Volume is conserved, pi a_i^2 l_i = pi a_0^2 l_step V_i with V_i = 1 for an initial bead.
+///
+/// Velocities, stress and added columns are those of the state that the chain was set from, which outlives
+/// its use. Scaled. Source: paper, Sec. "Equations of motion".
 
 #include <utility>
 
@@ -19,24 +22,37 @@ template <int D>
 struct Chain {
   using Points = Eigen::Array<double, Eigen::Dynamic, D>;
 
+  double t = 0;
   int beads = 0;
   Points point;                 ///< beads, [held], nozzle
   Eigen::ArrayXd point_charge;  ///< as the Coulomb sum sees it
   Points tangent;               ///< per element, like all below
-  Eigen::ArrayXd inverse_length, strain_rate, stress, inverse_mass;
+  Eigen::ArrayXd inverse_length, strain_rate, stress, inverse_mass, volume;
+  const State<D>* state = nullptr;  ///< of the beads
+  Vec<D> nozzle_velocity = Vec<D>::Zero();
 
   int points() const { return static_cast<int>(point.rows()); }
+
+  /// Velocity of bead i, and of its upper neighbour.
+  Vec<D> velocity(int i) const { return treejet::velocity<D>(*state, i); }
+  Vec<D> velocity_above(int i) const { return i + 1 < beads ? velocity(i + 1) : nozzle_velocity; }
+  /// An added column, by its place among them.
+  auto column(int added) const { return state->col(own_columns<D> + added); }
 };
 
 /// Sizes the chain for the jet and sets its boundary: held bead and nozzle.
 template <int D>
 void set_boundary(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, double t, const State<D>& y) {
   const Eigen::Index n = y.rows(), points = n + (jet.held ? 2 : 1);
+  chain.t = t;
   chain.beads = static_cast<int>(n);
+  chain.state = &y;
+  chain.nozzle_velocity = nozzle.velocity(t);
   chain.point.resize(points, Eigen::NoChange);
   chain.point_charge.resize(points);
   chain.tangent.resize(n, Eigen::NoChange);
-  for (auto* a : {&chain.inverse_length, &chain.strain_rate, &chain.stress, &chain.inverse_mass})
+  for (auto* a :
+       {&chain.inverse_length, &chain.strain_rate, &chain.stress, &chain.inverse_mass, &chain.volume})
     a->resize(n);
   const Vec<D> origin = nozzle.position(t);
   if (jet.held) {
@@ -57,9 +73,9 @@ void set_points(Chain<D>& chain, const Jet<D>& jet, const State<D>& y,
   chain.point_charge.segment(first, last - first) = jet.charge.segment(first, last - first);
 }
 
-/// Sets the elements first <= i < last, with the masses of their beads.
+/// Sets the elements first <= i < last, with the masses of their beads, after the boundary.
 template <int D>
-void set_elements(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, double t, const State<D>& y,
+void set_elements(Chain<D>& chain, const Jet<D>& jet, const State<D>& y,
                   std::pair<Eigen::Index, Eigen::Index> rows);
 
 }  // namespace treejet

@@ -2,24 +2,16 @@
 /// The solution between the two ends of a step: dense output for every scheme.
 ///
 /// Position is the quintic that meets position, velocity and acceleration at both ends, velocity is its
-/// derivative, stress the cubic that meets stress and its rate. With theta = (t - begin) / h and exact end
-/// values the errors are O(h^6 theta^3 (1 - theta)^3) in position, O(h^5 theta^2 (1 - theta)^2) in velocity
-/// and O(h^4 theta^2 (1 - theta)^2) in stress, also a little outside [0, 1]. The solution holds for begin <=
-/// t <= until. Source: Hermite interpolation; e.g. Hairer, Norsett, Wanner, "Solving ODEs I", II.6.
+/// derivative, stress and every added column the cubic that meets value and rate. With theta = (t - begin) /
+/// h and exact end values the errors are O(h^6 theta^3 (1 - theta)^3) in position, O(h^5 theta^2 (1 -
+/// theta)^2) in velocity and O(h^4 theta^2 (1 - theta)^2) in stress, also a little outside [0, 1]. The
+/// solution holds for begin <= t <= until. Source: Hermite interpolation; e.g. Hairer, Norsett, Wanner,
+/// "Solving ODEs I", II.6.
 
 #include "core/base/weighted_sum.hpp"
 #include "core/jet/jet.hpp"
 
 namespace treejet {
-
-/// A point of the solution: the state with its slope.
-template <int D>
-struct SolutionPoint {
-  double t = 0;
-  State<D> y, slope;
-
-  void visit(Archive& state) { state(t, y, slope); }
-};
 
 template <int D>
 class DenseOutput {
@@ -31,7 +23,7 @@ class DenseOutput {
   const State<D>& first() const { return begin_.y; }
 
   State<D> at(double t) const {
-    State<D> y(begin_.y.rows(), 2 * D + 1);
+    State<D> y(begin_.y.rows(), begin_.y.cols());
     at(t, 0, y);
     return y;
   }
@@ -64,11 +56,12 @@ class DenseOutput {
       weighted_sum(nullptr, of_position, ends, y.rows(), y.col(k).data());
       weighted_sum(nullptr, of_velocity, ends, y.rows(), y.col(velocity_column<D> + k).data());
     }
-    constexpr int sigma = stress_column<D>;
     const double c = s2 * (3 - 2 * s);
-    const auto stress = [&](const State<D>& table) { return table.col(sigma).segment(first, y.rows()); };
-    y.col(sigma) = (1 - c) * stress(begin_.y) + c * stress(end_.y) +
-                   h * s * (1 - 2 * s + s2) * stress(begin_.slope) - h * s2 * (1 - s) * stress(end_.slope);
+    for (Eigen::Index column = stress_column<D>; column < y.cols(); ++column) {
+      const auto rows = [&](const State<D>& table) { return table.col(column).segment(first, y.rows()); };
+      y.col(column) = (1 - c) * rows(begin_.y) + c * rows(end_.y) +
+                      h * s * (1 - 2 * s + s2) * rows(begin_.slope) - h * s2 * (1 - s) * rows(end_.slope);
+    }
   }
 
   /// Third derivative of the position of bead i at the end: what the next step may expect of its

@@ -5,7 +5,8 @@
 
 namespace treejet {
 
-ErrorNorm::ErrorNorm(const Parameters& p) {
+ErrorNorm::ErrorNorm(const Parameters& p, const Columns& added) {
+  for (const Column& column : added) small_.push_back(column.small);
   constexpr double allowance = 25, most = 0.1;
   const Stiffness s = stiffness(p);
   const double T = std::max(1.0, s.bead_interval / s.relaxation);

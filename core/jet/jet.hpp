@@ -8,50 +8,94 @@
 ///
 /// Row 0 is the oldest bead, the one nearest to the collector; row n-1 is the youngest. Element i joins bead
 /// i to its upper neighbour, bead i+1 or, for i = n-1, the nozzle, and owns the stress sigma_i. Insertion
-/// appends a row, removal drops row 0. The nozzle and the bead held below it are boundary conditions,
-/// functions of time and of bead n-1 (core/jet/nozzle.hpp), and therefore not rows. Source: paper, Sec.
-/// "Equations of motion" and "Jet insertion".
+/// appends a row, removal drops row 0. Beads may differ in mass, charge and volume; the volume is that of the
+/// element, pi a_i^2 l_i, so that its radius follows from its length. The nozzle and the bead held below it
+/// are boundary conditions, functions of time and of bead n-1 (core/jet/nozzle.hpp), and therefore not rows.
+/// Source: paper, Sec. "Equations of motion" and "Jet insertion".
 
 #include <cstdint>
+#include <vector>
 
 #include "core/base/archive.hpp"
 #include "core/base/vec.hpp"
 
 namespace treejet {
 
+/// A point of the solution: the state with its slope.
 template <int D>
-struct Jet {
+struct SolutionPoint {
   double t = 0;
-  State<D> y;
+  State<D> y, slope;
+
+  void visit(Archive& state) { state(t, y, slope); }
+};
+
+/// The solution at this moment, and what is constant in its beads.
+template <int D>
+struct Jet : SolutionPoint<D> {
   Eigen::ArrayXd mass, charge;
-  bool held = false;  ///< a bead waits at distance l_step below the nozzle, its charge fading in
+  Eigen::ArrayXd volume;  ///< of the element that a bead owns, which stays as it stretches
+  bool held = false;      ///< a bead waits at distance l_step below the nozzle, its charge fading in
   std::int64_t removed =
       0;  ///< beads that have left at the collector: bead i was the (removed + i)-th inserted
 
-  Eigen::Index size() const { return y.rows(); }
+  Eigen::Index size() const { return this->y.rows(); }
 
-  void visit(Archive& state) { state(t, y, mass, charge, held, removed); }
+  void visit(Archive& state) {
+    SolutionPoint<D>::visit(state);
+    state(mass, charge, volume, held, removed);
+  }
+};
+
+/// A bead, scaled: an initial one has mass, charge and volume 1.
+template <int D>
+struct Bead {
+  Bead(const Vec<D>& r = Vec<D>::Zero(), const Vec<D>& v = Vec<D>::Zero(), double sigma = 0, double m = 1,
+       double q = 1)
+      : position(r), velocity(v), stress(sigma), mass(m), charge(q) {}
+
+  Vec<D> position, velocity;
+  double stress, mass, charge, volume = 1;
+  std::vector<double> added;  ///< of the columns that the scene has added, one each
 };
 
 /// Appends a bead above the youngest one.
 template <int D>
-void append(Jet<D>& jet, const Vec<D>& position, const Vec<D>& velocity, double stress, double mass,
-            double charge) {
+void append(Jet<D>& jet, const Bead<D>& bead) {
   const Eigen::Index n = jet.size();
   jet.y.conservativeResize(n + 1, Eigen::NoChange);
-  jet.y.row(n) << position.transpose().array(), velocity.transpose().array(), stress;
-  jet.mass.conservativeResize(n + 1);
-  jet.charge.conservativeResize(n + 1);
-  jet.mass[n] = mass;
-  jet.charge[n] = charge;
+  jet.y.row(n).template head<own_columns<D>>() << bead.position.transpose().array(),
+      bead.velocity.transpose().array(), bead.stress;
+  for (std::size_t k = 0; k < bead.added.size(); ++k)
+    jet.y(n, own_columns<D> + static_cast<Eigen::Index>(k)) = bead.added[k];
+  const auto add = [n](Eigen::ArrayXd& constants, double value) {
+    constants.conservativeResize(n + 1);
+    constants[n] = value;
+  };
+  add(jet.mass, bead.mass);
+  add(jet.charge, bead.charge);
+  add(jet.volume, bead.volume);
+}
+
+/// The beads of a jet at another moment, without a slope.
+template <int D>
+Jet<D> at(const Jet<D>& jet, double t, const State<D>& y) {
+  Jet<D> then;
+  then.t = t;
+  then.y = y;
+  then.mass = jet.mass;
+  then.charge = jet.charge;
+  then.volume = jet.volume;
+  then.held = jet.held;
+  then.removed = jet.removed;
+  return then;
 }
 
 /// Drops the oldest bead.
 template <int D>
 void drop_first(Jet<D>& jet) {
   drop_first_row(jet.y);
-  drop_first_row(jet.mass);
-  drop_first_row(jet.charge);
+  for (auto* constants : {&jet.mass, &jet.charge, &jet.volume}) drop_first_row(*constants);
   ++jet.removed;
 }
 

@@ -22,6 +22,7 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/jet/columns.hpp"
 #include "core/jet/jet.hpp"
 #include "core/jet/parameters.hpp"
 #include "core/jet/scales.hpp"
@@ -33,11 +34,13 @@ class Nozzle {
  public:
   static constexpr double charge = 1;
 
-  explicit Nozzle(const Parameters& p)
+  /// The beads it lets go have the values at birth of the columns that the scene adds.
+  explicit Nozzle(const Parameters& p, const Columns& added = {})
       : inserting_(p.inserting),
         l_step_(groups(p).L_step),
         speed_(p.nozzle_velocity / scales(p).velocity),
         release_waits_(p.events == EventRule::step) {
+    for (const Column& column : added) at_birth_.push_back(column.at_birth);
     if (p.perturb && D == 3) {
       angular_frequency_ = groups(p).K_s;
       amplitude_ = p.perturb_amplitude / scales(p).length;
@@ -85,7 +88,9 @@ class Nozzle {
     const Vec<D> r = treejet::position<D>(jet.y, youngest);
     Vec<D> v = treejet::velocity<D>(jet.y, youngest) / 2;
     v[0] += speed_ / 2;
-    append<D>(jet, held(r, position(jet.t)).position, v, /*stress*/ 0, /*mass*/ 1, /*charge*/ 1);
+    Bead<D> bead(held(r, position(jet.t)).position, v);
+    bead.added = at_birth_;
+    append<D>(jet, bead);
     jet.held = false;
   }
 
@@ -115,6 +120,7 @@ class Nozzle {
   double l_step_, speed_;
   bool release_waits_;  ///< for the end of a step
   double angular_frequency_ = 0, amplitude_ = 0;
+  std::vector<double> at_birth_;  ///< of the added columns
 };
 
 }  // namespace treejet

@@ -1,8 +1,8 @@
 #pragma once
 /// The right-hand side dy/dt = f(t, y) of a jet, as a stepper sees it.
 ///
-/// `jet` tells what is constant within a step: mass and charge of the beads, and whether one is held; its own
-/// t and y are not looked at. `slope` is resized to the shape of y.
+/// `jet` tells what is constant within a step: mass, charge and volume of the beads, and whether one is held.
+/// A stage is asked for by its own t and y. `slope` is resized to the shape of y.
 
 #include <limits>
 #include <stdexcept>
@@ -12,12 +12,11 @@
 
 namespace treejet {
 
-/// The beads that a step follows stage by stage, as a jet of their own, and where they set out from: the
-/// first rows are the `oldest` beads of the whole jet, the rest its youngest.
+/// The beads that a step integrates stage by stage, as a jet of their own: the first rows are the `oldest`
+/// beads of the whole jet, the rest its youngest.
 template <int D>
 struct FastRegion {
-  Jet<D> jet;  ///< what is constant in it
-  SolutionPoint<D> from;
+  Jet<D> jet;
   Eigen::Index oldest = 0;
 };
 
@@ -29,9 +28,9 @@ class RightHandSide {
   /// At any stage of a step.
   virtual void operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) = 0;
 
-  /// At an accepted point of the solution: a motion that remembers (forces/multirate/multirate_motion.hpp)
-  /// learns here. `known` is the slope that a stage has found there, of the followed beads if a step follows
-  /// some. True if forces had to be evaluated.
+  /// At an accepted point of the solution: a right-hand side that remembers
+  /// (forces/multirate/multirate_motion.hpp) learns here. `known` is the slope that a stage has found there,
+  /// of the fast region if a step integrates no more. True if forces had to be evaluated.
   virtual bool on_accepted_step(const Jet<D>& jet, double t, const State<D>& y, const State<D>* known,
                                 State<D>& slope) {
     if (known)
@@ -41,16 +40,14 @@ class RightHandSide {
     return !known;
   }
 
-  /// The longest step that a motion which continues what it remembers allows from an accepted point.
+  /// The longest step that a right-hand side which extrapolates what it remembers allows from here.
   virtual double longest_step() const { return std::numeric_limits<double>::infinity(); }
 
-  /// A motion that knows the way of some beads through a step from here gives the others, without t and y of
-  /// their jet. The stages of the step are then asked for with these beads' jet and tables only. Null: all
-  /// beads are to be followed.
-  virtual const FastRegion<D>* fast_region(const Jet<D>&, const SolutionPoint<D>&) { return nullptr; }
-  /// All beads after a step of length h that has led the followed ones to `some`.
-  virtual void complete(const Jet<D>&, const SolutionPoint<D>& /*from*/, double /*h*/,
-                        const State<D>& /*some*/, State<D>& /*next*/) {}
+  /// A right-hand side that knows the way of some beads through a step from here gives the others. The stages
+  /// of the step are then asked for with these beads' jet and tables only. Null: all beads are integrated.
+  virtual const FastRegion<D>* fast_region(const Jet<D>&) { return nullptr; }
+  /// All beads after a step of length h that has led those of the fast region to `some`.
+  virtual void complete(const Jet<D>&, double /*h*/, const State<D>& /*some*/, State<D>& /*next*/) {}
 
   /// The derivative of the local part of the slope, for the schemes that solve for it.
   virtual void differentiate(const Jet<D>&, double, const State<D>&, LocalJacobian<D>&) {

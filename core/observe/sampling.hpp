@@ -14,8 +14,8 @@ class Sampling : public Observer<D> {
  public:
   explicit Sampling(double interval) : interval_(interval) {}
 
-  /// Of a chain held in pieces all ranks sample together: `sample` sees the whole jet on the first one.
-  void sample_whole(const Decomposition<D>& decomposition) { holding_ = &decomposition; }
+  /// Of a jet in subdomains all ranks sample together: `sample` sees the whole jet on the first one.
+  void sample_whole(const Decomposition<D>& decomposition) { decomposition_ = &decomposition; }
 
   void start(const Jet<D>& jet) override {
     count_ = 0;
@@ -51,12 +51,11 @@ class Sampling : public Observer<D> {
   }  ///< the asked times and the grid of the steps round differently
 
   void take(const Jet<D>& jet, double t, const State<D>& y) {
-    Jet<D> then{t, y, jet.mass, jet.charge, jet.held, jet.removed};
-    sample(holding_->whole(std::move(then)));
+    sample(decomposition_->whole(at(jet, t, y)));
     ++count_;
   }
 
-  const Decomposition<D>* holding_ = &undivided<D>;
+  const Decomposition<D>* decomposition_ = &undivided<D>;
   double interval_;
   std::int64_t count_ = 0;
 };

@@ -103,7 +103,7 @@ class Statistics {
     window_.mass_out += jet.mass[0];
     window_.speed += v.norm();
     window_.strain_rate += (v - upper_velocity).dot(d) / (l * l);
-    window_.radius += std::sqrt(nozzle_.l_step() / l);
+    window_.radius += std::sqrt(jet.volume[0] * nozzle_.l_step() / l);
     charge_landed_ += jet.charge[0];
     next_arrival_from_ = upper[0];
   }

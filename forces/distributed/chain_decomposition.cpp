@@ -11,28 +11,32 @@ namespace {
 
 constexpr int least_share = 4;
 
-/// A bead on its way: its row, mass and charge.
-constexpr int words = 2 * 3 + 1 + 2;
-using Beads = Eigen::Array<double, words, Eigen::Dynamic>;
+/// Beads on their way, a column each: state, mass, charge, volume.
+using Beads = Eigen::ArrayXXd;
+constexpr auto constants = {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume};
+
+Eigen::Index words(const Jet<3>& jet) {
+  return jet.y.cols() + static_cast<Eigen::Index>(constants.size());
+}
 
 Beads beads_of(const Jet<3>& jet, Rows rows) {
-  Beads some(words, rows.size());
-  some.topRows<words - 2>() = jet.y.middleRows(rows.first, rows.size()).transpose();
-  some.row(words - 2) = jet.mass.segment(rows.first, rows.size()).transpose();
-  some.row(words - 1) = jet.charge.segment(rows.first, rows.size()).transpose();
+  Beads some(words(jet), rows.size());
+  Eigen::Index word = jet.y.cols();
+  some.topRows(word) = jet.y.middleRows(rows.first, rows.size()).transpose();
+  for (auto each : constants) some.row(word++) = (jet.*each).segment(rows.first, rows.size()).transpose();
   return some;
 }
 
 void set_beads(Jet<3>& jet, const Beads& all) {
-  jet.y = all.topRows<words - 2>().transpose();
-  jet.mass = all.row(words - 2).transpose();
-  jet.charge = all.row(words - 1).transpose();
+  Eigen::Index word = jet.y.cols();
+  jet.y = all.topRows(word).transpose();
+  for (auto each : constants) jet.*each = all.row(word++).transpose();
 }
 
 Beads joined(const std::vector<Beads>& parts) {
   Eigen::Index count = 0;
   for (const Beads& part : parts) count += part.cols();
-  Beads all(words, count);
+  Beads all(parts.front().rows(), count);
   for (Eigen::Index at = 0; const Beads& part : parts) {
     all.middleCols(at, part.cols()) = part;
     at += part.cols();
@@ -44,7 +48,7 @@ std::vector<double> letter(const Beads& some) {
   return {some.data(), some.data() + some.size()};
 }
 
-Beads read(const std::vector<double>& letter) {
+Beads read(const std::vector<double>& letter, Eigen::Index words) {
   return Eigen::Map<const Beads>(letter.data(), words, static_cast<Eigen::Index>(letter.size()) / words);
 }
 
@@ -122,9 +126,9 @@ void ChainDecomposition::after_release(Jet<3>& jet) {
 void ChainDecomposition::after_removal(Jet<3>& jet) {
   --counts_[index(end(0))];
   if (total() == 0) return;
-  Beads oldest = Beads::Zero(words, 1);
+  Beads oldest = Beads::Zero(words(jet), 1);
   if (has_oldest()) oldest = beads_of(jet, {0, 1});
-  ranks_.sum({oldest.data(), words});
+  ranks_.sum({oldest.data(), static_cast<std::size_t>(oldest.size())});
   if (!has_oldest() && total() > 1)
     set_beads(jet, joined({oldest, beads_of(jet, {0, static_cast<int>(jet.size())})}));
   if (out_of_balance()) recut(jet);
@@ -151,7 +155,7 @@ void ChainDecomposition::recut(Jet<3>& jet) {
   }
   std::vector<Beads> parts;
   if (!has_oldest()) parts.push_back(oldest);
-  for (const auto& received : ranks_.exchange(letters)) parts.push_back(read(received));
+  for (const auto& received : ranks_.exchange(letters)) parts.push_back(read(received, words(jet)));
   if (!has_youngest()) parts.push_back(youngest);
   set_beads(jet, joined(parts));
   ++recuts_;
@@ -161,7 +165,7 @@ Jet<3> ChainDecomposition::whole(Jet<3>&& jet) const {
   Ranks::Letters letters(index(ranks_.size()));
   letters[0] = letter(beads_of(jet, own()));
   std::vector<Beads> parts;
-  for (const auto& received : ranks_.exchange(letters)) parts.push_back(read(received));
+  for (const auto& received : ranks_.exchange(letters)) parts.push_back(read(received, words(jet)));
   if (ranks_.first()) set_beads(jet, joined(parts));
   return std::move(jet);
 }

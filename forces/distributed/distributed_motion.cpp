@@ -4,17 +4,18 @@ namespace treejet {
 
 namespace {
 
-constexpr int columns_of_a_row = 2 * 3 + 1;
-
-std::vector<double> row(const State<3>& y, int i) {
-  const Eigen::Array<double, 1, columns_of_a_row> values = y.row(i);
-  return {values.data(), values.data() + values.size()};
+/// What a neighbour has to know of a bead: its state, mass, charge and volume.
+std::vector<double> message(const Jet<3>& jet, const State<3>& y, int i) {
+  const Eigen::Array<double, 1, Eigen::Dynamic> values = y.row(i);
+  std::vector<double> all(values.data(), values.data() + values.size());
+  all.insert(all.end(), {jet.mass[i], jet.charge[i], jet.volume[i]});
+  return all;
 }
 
 }  // namespace
 
 void DistributedMotion::operator()(const Jet<3>& jet, double t, const State<3>& y, State<3>& slope) {
-  slope.resize(y.rows(), Eigen::NoChange);
+  slope.resize(y.rows(), y.cols());
   if (pieces_.beads(jet) == 0) return;
   const Rows own = pieces_.own();
   extend(jet, y);
@@ -29,23 +30,26 @@ void DistributedMotion::extend(const Jet<3>& jet, const State<3>& y) {
   const Rows own = pieces_.own();
   const int older = pieces_.older(), younger = pieces_.younger();
   Ranks::Letters letters(index(pieces_.ranks().size()));
-  if (older >= 0) letters[index(older)] = row(y, own.first);
-  if (younger >= 0) letters[index(younger)] = row(y, own.last - 1);
+  if (older >= 0) letters[index(older)] = message(jet, y, own.first);
+  if (younger >= 0) letters[index(younger)] = message(jet, y, own.last - 1);
   const Ranks::Letters received = pieces_.ranks().exchange(letters);
 
   first_ = older >= 0 ? 1 : 0;
   const int n = first_ + own.size() + (younger >= 0 ? 1 : 0);
-  extended_.y.resize(n, Eigen::NoChange);
-  extended_.mass.setOnes(n);  // neighbours only pull: theirs does not matter
-  extended_.charge.setZero(n);
+  extended_.y.resize(n, y.cols());
   extended_.y.middleRows(first_, own.size()) = y.middleRows(own.first, own.size());
-  extended_.mass.segment(first_, own.size()) = jet.mass.segment(own.first, own.size());
-  extended_.charge.segment(first_, own.size()) = jet.charge.segment(own.first, own.size());
+  for (auto constants : {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume}) {
+    (extended_.*constants).resize(n);
+    (extended_.*constants).segment(first_, own.size()) = (jet.*constants).segment(own.first, own.size());
+  }
   extended_.held = jet.held && pieces_.has_youngest();
   const auto take_in = [&](int rank, int at) {
-    if (rank >= 0)
-      extended_.y.row(at) =
-          Eigen::Map<const Eigen::Array<double, 1, columns_of_a_row>>(received[index(rank)].data());
+    if (rank < 0) return;
+    const double* from = received[index(rank)].data();
+    extended_.y.row(at) = Eigen::Map<const Eigen::Array<double, 1, Eigen::Dynamic>>(from, y.cols());
+    from += y.cols();
+    for (auto constants : {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume})
+      (extended_.*constants)[at] = *from++;
   };
   take_in(older, 0);
   take_in(younger, n - 1);
@@ -73,7 +77,7 @@ void DistributedMotion::repel(Rows own, State<3>& slope) {
 
 /// To their owners, too: a sum turns -0 into 0.
 void DistributedMotion::share_ends(State<3>& slope) const {
-  Eigen::Array<double, columns_of_a_row, 2> ends = decltype(ends)::Zero();
+  Eigen::Array<double, Eigen::Dynamic, 2> ends = decltype(ends)::Zero(slope.cols(), 2);
   const Eigen::Index last = slope.rows() - 1;
   if (pieces_.has_oldest()) ends.col(0) = slope.row(0).transpose();
   if (pieces_.has_youngest()) ends.col(1) = slope.row(last).transpose();

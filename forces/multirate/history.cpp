@@ -48,7 +48,7 @@ PastEvaluation<D>::PastEvaluation(double when, const Chain<D>& c, const Jet<D>& 
       point(c.point.topRows(c.beads + 1)),
       point_charge(c.point_charge.head(c.beads + 1)),
       field(E.topRows(c.beads)),
-      slope(slopes.template rightCols<D + 1>()) {
+      slope(slopes.rightCols(slopes.cols() - D)) {
   if (!jet.held) return;
   const int n = c.beads, nozzle = c.points() - 1;
   const Vec<D> held = c.point.row(n).matrix().transpose();
@@ -118,7 +118,9 @@ void History<D>::before_removal(const Jet<D>& jet, double Q) {
     drop_first_row(m.point_charge);
     drop_first_row(m.field);
     drop_first_row(m.slope);
-    const Jet<D> left{jet.t, {}, jet.mass.tail(jet.size() - 1), jet.charge.tail(jet.size() - 1), false, 0};
+    Jet<D> left;
+    left.mass = jet.mass.tail(jet.size() - 1);
+    left.charge = jet.charge.tail(jet.size() - 1);
     add_field<D>(m, field_of<D>(-jet.charge[0], oldest, m.point, m.field.rows()), left, Q);
     if (continuable(jet.size() - 1)) m.set_far();
   }

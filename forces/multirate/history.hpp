@@ -34,9 +34,9 @@ struct PastEvaluation {
   double t = 0;
   Points point;  ///< beads, nozzle
   Eigen::ArrayXd point_charge;
-  Points field;  ///< E at the beads, of all points
-  Points far;    ///< E at the fast beads, of the points that are not near
-  Eigen::Array<double, Eigen::Dynamic, D + 1> slope;  ///< acceleration and stress rate
+  Points field;           ///< E at the beads, of all points
+  Points far;             ///< E at the fast beads, of the points that are not near
+  Eigen::ArrayXXd slope;  ///< acceleration, stress rate, rates of the added columns
 
   PastEvaluation() = default;
   /// That of the chain at t; the field is what its charges make at its beads.
@@ -64,6 +64,8 @@ class History {
   /// as a step follows.
   bool continuable(Eigen::Index beads) const;
 
+  /// Columns of the slopes.
+  int columns() const { return static_cast<int>(past_[0].slope.cols()); }
   /// Beads that are remembered.
   int beads() const { return static_cast<int>(past_[0].slope.rows()); }
   /// From the last moment to t; infinite without one.

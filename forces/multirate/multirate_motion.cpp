@@ -11,21 +11,21 @@ namespace treejet {
 
 namespace {
 
-/// Of all rows those of the followed beads, and back.
+/// Gathers the rows integrated stage by stage, and scatters them back.
 template <class Array>
-void take_followed(const Array& all, Array& some) {
-  some.resize(fast_region_beads, Eigen::NoChange);
+void gather_fast(const Array& all, Array& some) {
+  some.resize(fast_region_beads, all.cols());
   some.topRows(fast_region_old) = all.topRows(fast_region_old);
   some.bottomRows(fast_region_beads - fast_region_old) = all.bottomRows(fast_region_beads - fast_region_old);
 }
 template <class Array>
-void put_followed(const Array& some, Array& all) {
+void scatter_fast(const Array& some, Array& all) {
   all.topRows(fast_region_old) = some.topRows(fast_region_old);
   all.bottomRows(fast_region_beads - fast_region_old) = some.bottomRows(fast_region_beads - fast_region_old);
 }
 
-/// The rows of a whole jet of n beads that a step does not follow.
-Rows middle_of(Eigen::Index n) {
+/// The rows of a whole jet of n beads that are not in the fast region.
+Rows slow_region(Eigen::Index n) {
   return {fast_region_old, static_cast<int>(n) - (fast_region_beads - fast_region_old)};
 }
 
@@ -70,19 +70,20 @@ bool MultirateMotion<D>::on_accepted_step(const Jet<D>& jet, double t, const Sta
 }
 
 template <int D>
-const FastRegion<D>* MultirateMotion<D>::fast_region(const Jet<D>& jet, const SolutionPoint<D>& from) {
-  if (!history_.continuable(from.y.rows()) || from.y.rows() == fast_region_beads) return nullptr;
-  follow(jet, from.y);
-  fast_region_.from.t = from.t;
-  take_followed(from.slope, fast_region_.from.slope);
+const FastRegion<D>* MultirateMotion<D>::fast_region(const Jet<D>& jet) {
+  if (!history_.continuable(jet.size()) || jet.size() == fast_region_beads) return nullptr;
+  follow(jet, jet.y);
+  fast_region_.jet.t = jet.t;
+  gather_fast(jet.slope, fast_region_.jet.slope);
   return &fast_region_;
 }
 
 template <int D>
 void MultirateMotion<D>::follow(const Jet<D>& jet, const State<D>& y) {
-  take_followed(jet.mass, fast_region_.jet.mass);
-  take_followed(jet.charge, fast_region_.jet.charge);
-  take_followed(y, fast_region_.from.y);
+  gather_fast(jet.mass, fast_region_.jet.mass);
+  gather_fast(jet.charge, fast_region_.jet.charge);
+  gather_fast(jet.volume, fast_region_.jet.volume);
+  gather_fast(y, fast_region_.jet.y);
   fast_region_.jet.held = jet.held;
   specific_charge_ = specific_charge(fast_region_.jet, {0, fast_region_beads});
 }
@@ -98,22 +99,22 @@ Eigen::ArrayXd MultirateMotion<D>::specific_charge(const Jet<D>& jet, Rows rows)
 template <int D>
 void MultirateMotion<D>::continued(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) {
   follow(jet, y);
-  continued_ends(fast_region_.jet, t, fast_region_.from.y, fast_region_.from.slope);
-  continue_middle(jet, t, y, fast_region_.from.slope, slope);
+  continued_ends(fast_region_.jet, t, fast_region_.jet.y, fast_region_.jet.slope);
+  continue_middle(jet, t, y, fast_region_.jet.slope, slope);
 }
 
-/// The slopes of all beads from those of the followed ones.
+/// The slopes of all beads from those of the fast region.
 template <int D>
 void MultirateMotion<D>::continue_middle(const Jet<D>& jet, double t, const State<D>& y, const State<D>& ends,
                                          State<D>& slope) const {
-  slope.resize(y.rows(), Eigen::NoChange);
-  put_followed(ends, slope);
-  const Rows middle = middle_of(y.rows());
+  slope.resize(y.rows(), y.cols());
+  scatter_fast(ends, slope);
+  const Rows middle = slow_region(y.rows());
   const int i = middle.first, m = middle.size();
   const Weights w = history_.weights(t);
   slope.middleRows(i, m).template leftCols<D>() =
       y.middleRows(i, m).template middleCols<D>(velocity_column<D>);
-  for (int k = 0; k <= D; ++k)
+  for (int k = 0; k < history_.columns(); ++k)
     weighted_sum(nullptr, w, history_.slopes(k, i), m, slope.col(velocity_column<D> + k).data() + i);
   if (!jet.held) return;
   const Nozzle<D>& nozzle = full_.nozzle();
@@ -123,21 +124,22 @@ void MultirateMotion<D>::continue_middle(const Jet<D>& jet, double t, const Stat
       field_of<D>(held.charge, held.position, point, m).colwise() * specific_charge(jet, middle);
 }
 
-/// The slopes of the followed beads.
+/// The slopes of the fast region.
 template <int D>
 void MultirateMotion<D>::continued_ends(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) {
   constexpr int n = fast_region_beads;
   const int middle = history_.beads() - n;
   const Weights w = history_.weights(t);
-  slope.resize(n, Eigen::NoChange);
+  slope.resize(n, y.cols());
   field_.resize(n + 2, Eigen::NoChange);
   set_boundary<D>(chain_, jet, full_.nozzle(), t, y);
   set_points<D>(chain_, jet, y, {0, n});
   set_near_beads(w, y, slope);
   for (const FastEnd& end : fast_ends(n, chain_.points())) {
     const int i = end.fast.first, left_out = i == 0 ? 0 : middle;
-    set_elements<D>(chain_, jet, full_.nozzle(), t, y, {std::max(i - 1, 0), end.fast.last});
-    full_.set_local(chain_, y, end.fast, slope);
+    set_elements<D>(chain_, jet, y, {std::max(i - 1, 0), end.fast.last});
+    full_.prepare(chain_, end.fast, {1});
+    full_.set_local(chain_, end.fast, slope);
     set_near_field<D>(chain_.point, chain_.point_charge, end, field_);
     field_.middleRows(i, end.fast.size()) +=
         history_.continuation(w, &PastEvaluation<D>::far, {i + left_out, end.fast.last + left_out});
@@ -155,21 +157,21 @@ void MultirateMotion<D>::continued_ends(const Jet<D>& jet, double t, const State
   }
 }
 
-/// The slopes of the slow beads among the followed ones, but for the field of a held bead.
+/// The slopes of the slow beads in the fast region, but for the field of a held bead.
 template <int D>
 void MultirateMotion<D>::set_near_beads(const Weights& w, const State<D>& y, State<D>& slope) const {
   constexpr Rows slow = {fast_old, fast_region_beads - fast_young};
   const int middle = history_.beads() - fast_region_beads;
   slope.middleRows(slow.first, slow.size()).template leftCols<D>() =
       y.middleRows(slow.first, slow.size()).template middleCols<D>(velocity_column<D>);
-  for (int k = 0; k <= D; ++k) {
+  for (int k = 0; k < history_.columns(); ++k) {
     double* const to = slope.col(velocity_column<D> + k).data();
     weighted_sum(nullptr, w, history_.slopes(k, slow.first), near_points, to + slow.first);
     weighted_sum(nullptr, w, history_.slopes(k, fast_region_old + middle), near_points, to + fast_region_old);
   }
 }
 
-/// Adds what the field does to the followed beads of `rows`.
+/// Adds what the field does to the beads of `rows` in the fast region.
 template <int D>
 void MultirateMotion<D>::accelerate(Rows rows, State<D>& slope) const {
   const int i = rows.first, m = rows.size();
@@ -180,16 +182,15 @@ void MultirateMotion<D>::accelerate(Rows rows, State<D>& slope) const {
 }
 
 template <int D>
-void MultirateMotion<D>::complete(const Jet<D>& jet, const SolutionPoint<D>& from, double h,
-                                  const State<D>& some, State<D>& next) {
-  const Rows middle = middle_of(from.y.rows());
-  next.resize(from.y.rows(), Eigen::NoChange);
-  put_followed(some, next);
-  drift(from, h, middle, next);
-  if (jet.held) push_by_held(jet, from, h, middle, next);
+void MultirateMotion<D>::complete(const Jet<D>& jet, double h, const State<D>& some, State<D>& next) {
+  const Rows middle = slow_region(jet.size());
+  next.resize(jet.size(), jet.y.cols());
+  scatter_fast(some, next);
+  drift(jet, h, middle, next);
+  if (jet.held) push_by_held(jet, h, middle, next);
 }
 
-/// The middle beads after a step of continued slopes.
+/// The slow region after a step of extrapolated slopes.
 template <int D>
 void MultirateMotion<D>::drift(const SolutionPoint<D>& from, double h, Rows middle, State<D>& all) const {
   const int first = middle.first, m = middle.size();
@@ -201,22 +202,21 @@ void MultirateMotion<D>::drift(const SolutionPoint<D>& from, double h, Rows midd
     once[k] = h / 6 * (begin[k] + 4 * half[k] + end[k]);
     twice[k + 1] = h * h / 6 * (begin[k] + 2 * half[k]);
   }
-  for (int k = 0; k <= D; ++k) {
+  for (int k = 0; k < history_.columns(); ++k) {
     const int column = velocity_column<D> + k;
     const auto slopes = history_.slopes(k, first);
-    const double* const rate = from.y.col(column).data() + first;  // velocity, and at last the stress
+    const double* const rate = from.y.col(column).data() + first;  // velocity, then stress and the rest
     weighted_sum(rate, once, slopes, m, all.col(column).data() + first);
-    if (k == D) break;
+    if (k >= D) continue;
     weighted_sum(from.y.col(k).data() + first, twice, {rate, slopes[0], slopes[1], slopes[2]}, m,
                  all.col(k).data() + first);
   }
 }
 
-/// Adds what the held bead does to the middle beads in a step.
+/// Adds what the held bead does to the slow region in a step.
 template <int D>
-void MultirateMotion<D>::push_by_held(const Jet<D>& jet, const SolutionPoint<D>& from, double h, Rows middle,
-                                      State<D>& all) const {
-  const Eigen::Index i = middle.first, m = middle.size(), youngest = from.y.rows() - 1;
+void MultirateMotion<D>::push_by_held(const Jet<D>& jet, double h, Rows middle, State<D>& all) const {
+  const Eigen::Index i = middle.first, m = middle.size(), youngest = jet.size() - 1;
   const Nozzle<D>& nozzle = full_.nozzle();
   Points velocity = Points::Zero(m, D), way = Points::Zero(m, D);
   const auto push = [&](double t, std::array<const double*, D> point, double once, double twice) {
@@ -227,11 +227,11 @@ void MultirateMotion<D>::push_by_held(const Jet<D>& jet, const SolutionPoint<D>&
     if (twice > 0) add_field_of<D>(held.charge * twice, held.position, point, m, columns<D>(way));
   };
   const auto change =
-      from.y.template middleCols<D>(velocity_column<D>) - all.template middleCols<D>(velocity_column<D>);
-  const Points half = (from.y.template leftCols<D>() + all.template leftCols<D>()) / 2 + h / 8 * change;
-  push(from.t, columns<D>(from.y), h / 6, h * h / 6);
-  push(from.t + h / 2, columns<D>(half), 4 * h / 6, 2 * h * h / 6);
-  push(from.t + h, columns<D>(std::as_const(all)), h / 6, 0);
+      jet.y.template middleCols<D>(velocity_column<D>) - all.template middleCols<D>(velocity_column<D>);
+  const Points half = (jet.y.template leftCols<D>() + all.template leftCols<D>()) / 2 + h / 8 * change;
+  push(jet.t, columns<D>(jet.y), h / 6, h * h / 6);
+  push(jet.t + h / 2, columns<D>(half), 4 * h / 6, 2 * h * h / 6);
+  push(jet.t + h, columns<D>(std::as_const(all)), h / 6, 0);
 
   const Eigen::ArrayXd per_field = specific_charge(jet, middle);
   all.middleRows(i, m).template middleCols<D>(velocity_column<D>) += velocity.colwise() * per_field;
@@ -244,15 +244,16 @@ double MultirateMotion<D>::mismatch(const Jet<D>& jet, double t, const State<D>&
                                     const PastEvaluation<D>& now) const {
   const int n = static_cast<int>(y.rows());
   const Weights w = history_.weights(t);
-  State<D> error(n, 2 * D + 1);
+  State<D> error(n, y.cols());
   error.template leftCols<D>().setZero();
-  error.template rightCols<D + 1>() = history_.continuation(w, &PastEvaluation<D>::slope, {0, n}) - now.slope;
+  error.rightCols(history_.columns()) =
+      history_.continuation(w, &PastEvaluation<D>::slope, {0, n}) - now.slope;
   for (const FastEnd& end : fast_ends(n, n + 1)) {
     const int i = end.fast.first, m = end.fast.size();
     const Points far = history_.continuation(w, &PastEvaluation<D>::far, end.fast) - now.far.middleRows(i, m);
     error.middleRows(i, m).template middleCols<D>(velocity_column<D>) =
         far.colwise() * specific_charge(jet, end.fast);
-    error.middleRows(i, m).col(stress_column<D>).setZero();
+    error.middleRows(i, m).rightCols(history_.columns() - D).setZero();
   }
   return norm_(error, y);
 }

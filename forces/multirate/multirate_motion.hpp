@@ -44,9 +44,8 @@ class MultirateMotion final : public RightHandSide<D> {
   double longest_step() const override {
     return history_.continuable(history_.beads()) ? interval_ : RightHandSide<D>::longest_step();
   }
-  const FastRegion<D>* fast_region(const Jet<D>& jet, const SolutionPoint<D>& from) override;
-  void complete(const Jet<D>& jet, const SolutionPoint<D>& from, double h, const State<D>& some,
-                State<D>& next) override;
+  const FastRegion<D>* fast_region(const Jet<D>& jet) override;
+  void complete(const Jet<D>& jet, double h, const State<D>& some, State<D>& next) override;
   void before_removal(const Jet<D>& jet) override { history_.before_removal(jet, Q()); }
   void after_release(const Jet<D>& jet) override { history_.after_release(jet, Q()); }
 
@@ -68,8 +67,7 @@ class MultirateMotion final : public RightHandSide<D> {
   void set_near_beads(const Weights& w, const State<D>& y, State<D>& slope) const;
   void accelerate(Rows rows, State<D>& slope) const;
   void drift(const SolutionPoint<D>& from, double h, Rows middle, State<D>& all) const;
-  void push_by_held(const Jet<D>& jet, const SolutionPoint<D>& from, double h, Rows middle,
-                    State<D>& all) const;
+  void push_by_held(const Jet<D>& jet, double h, Rows middle, State<D>& all) const;
   double mismatch(const Jet<D>& jet, double t, const State<D>& y, const PastEvaluation<D>& now) const;
 
   EquationsOfMotion<D>& full_;
@@ -78,7 +76,7 @@ class MultirateMotion final : public RightHandSide<D> {
   double interval_ = 0;  ///< from a moment to the next node that is one, and the longest step
   std::int64_t full_evaluations_ = 0;
 
-  FastRegion<D> fast_region_{{}, {}, fast_region_old};
+  FastRegion<D> fast_region_{{}, fast_region_old};
   Eigen::ArrayXd specific_charge_;  ///< Q q / m of the followed beads
   Chain<D> chain_;                  ///< of these
   Points field_;                    ///< of this stage

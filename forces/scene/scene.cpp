@@ -29,6 +29,7 @@ Jet<D> initial_jet(const Parameters& p, const std::vector<int>& beads) {
   jet.y.resize(n, Eigen::NoChange);
   jet.mass.setOnes(n);
   jet.charge.setOnes(n);
+  jet.volume.setOnes(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     r[0] = (initial_elements(p) - beads[static_cast<std::size_t>(i)]) * s.l_step / s.length;
     jet.y.row(i) << r.transpose().array(), v.transpose().array(), p.nozzle_stress / s.stress;

@@ -32,7 +32,7 @@ class CoulombForce final : public ForceTerm<D> {
     return solver_ ? "Coulomb sum to a stated error" : "Coulomb sum over all pairs";
   }
 
-  void prepare(const Chain<D>& c, Threads threads) override {
+  void prepare(const Chain<D>& c, Rows, Threads threads) override {
     field_.resize(c.points(), Eigen::NoChange);
     const Rows beads = {0, c.beads};
     const FieldArrays<D> field = columns<D>(field_);

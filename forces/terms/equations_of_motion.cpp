@@ -23,18 +23,19 @@ EquationsOfMotion<D>::EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<Stress
 template <int D>
 void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) {
   const int n = static_cast<int>(y.rows());
-  slope.resize(n, Eigen::NoChange);
+  slope.resize(n, y.cols());
   if (n == 0) return;
   const Threads threads = worthwhile(threads_, n);
 
   set_boundary<D>(chain_, jet, nozzle_, t, y);
   for_each_block(threads, {0, n}, block, [&](Rows rows) {
     set_points<D>(chain_, jet, y, {rows.first, rows.last});
-    set_elements<D>(chain_, jet, nozzle_, t, y, {rows.first, rows.last});
+    set_elements<D>(chain_, jet, y, {rows.first, rows.last});
   });
-  for (auto& term : terms_) term->prepare(chain_, threads);
+  if (coulomb_) coulomb_->prepare(chain_, {0, n}, threads);
+  prepare(chain_, {0, n}, threads);
   for_each_block(threads, {0, n}, block, [&](Rows rows) {
-    set_local(chain_, y, rows, slope);
+    set_local(chain_, rows, slope);
     Acceleration<D> acceleration = slope.template middleCols<D>(velocity_column<D>);
     if (coulomb_) coulomb_->add(chain_, rows, acceleration);
   });
@@ -47,30 +48,40 @@ void EquationsOfMotion<D>::differentiate(const Jet<D>& jet, double t, const Stat
   const int n = static_cast<int>(y.rows());
   set_boundary<D>(chain_, jet, nozzle_, t, y);
   set_points<D>(chain_, jet, y, {0, n});
-  set_elements<D>(chain_, jet, nozzle_, t, y, {0, n});
+  set_elements<D>(chain_, jet, y, {0, n});
   J.element.assign(static_cast<std::size_t>(n), {});
+  J.acceleration_by_v.clear();
   J.inverse_mass = chain_.inverse_mass;
   for (int i = 0; i < n; ++i) {
-    const Vec<D> upper = i + 1 < n ? velocity<D>(y, i + 1) : nozzle_.velocity(t);
     const Vec<D> tangent = chain_.tangent.row(i).matrix().transpose();
     const double inverse = chain_.inverse_length[i], law = stress_law_->by_strain_rate(chain_, i);
     auto& e = J.element[static_cast<std::size_t>(i)];
     e.rate_by_w = law * inverse * tangent;
     e.rate_by_d =
-        law * inverse * (inverse * (velocity<D>(y, i) - upper) - 2 * chain_.strain_rate[i] * tangent);
+        law * inverse *
+        (inverse * (chain_.velocity(i) - chain_.velocity_above(i)) - 2 * chain_.strain_rate[i] * tangent);
     e.rate_by_stress = -1;
   }
   for (const auto& term : terms_) term->differentiate(chain_, J);
 }
 
 template <int D>
-void EquationsOfMotion<D>::set_local(const Chain<D>& chain, const State<D>& y, Rows rows,
-                                     State<D>& slope) const {
+void EquationsOfMotion<D>::prepare(const Chain<D>& chain, Rows rows, Threads threads) {
+  for (auto& term : terms_)
+    if (term.get() != coulomb_) term->prepare(chain, rows, threads);
+}
+
+template <int D>
+void EquationsOfMotion<D>::set_local(const Chain<D>& chain, Rows rows, State<D>& slope) const {
   const int i = rows.first, n = rows.size();
   slope.middleRows(i, n).template leftCols<D>() =
-      y.middleRows(i, n).template middleCols<D>(velocity_column<D>);
+      chain.state->middleRows(i, n).template middleCols<D>(velocity_column<D>);
   slope.middleRows(i, n).template middleCols<D>(velocity_column<D>).setZero();
   stress_law_->set(chain, rows, slope.col(stress_column<D>));
+  for (std::size_t k = 0; k < column_rates_.size(); ++k) {
+    const int added = static_cast<int>(k);
+    column_rates_[k]->set(chain, added, rows, slope.col(own_columns<D> + added));
+  }
   Acceleration<D> acceleration = slope.template middleCols<D>(velocity_column<D>);
   for (auto& term : terms_) {
     if (term.get() != coulomb_) term->add(chain, rows, acceleration);

@@ -1,5 +1,6 @@
 #pragma once
-/// The equations of motion: the terms that a scene names, summed. The only right-hand side of the program.
+/// The equations of motion: the terms that a scene names, summed. The right-hand sides of multirate and of a
+/// jet in subdomains stand on this one.
 ///
 ///     dr_i/dt = v_i ,    m_i dv_i/dt = sum of the force terms ,    d sigma_i/dt = constitutive equation .
 ///
@@ -33,8 +34,13 @@ class EquationsOfMotion final : public RightHandSide<D> {
     if (coulomb_) state(*coulomb_);
   }
 
-  /// Everything but the Coulomb force, which couples all beads, for the slopes of `rows`.
-  void set_local(const Chain<D>& chain, const State<D>& y, Rows rows, State<D>& slope) const;
+  /// Everything but the Coulomb force, which couples all beads, for the slopes of `rows`; they must have been
+  /// prepared for.
+  void prepare(const Chain<D>& chain, Rows rows, Threads threads);
+  void set_local(const Chain<D>& chain, Rows rows, State<D>& slope) const;
+
+  /// Adds the rate of the next column that the scene adds to the state.
+  void add_column(std::unique_ptr<ColumnRate<D>> rate) { column_rates_.push_back(std::move(rate)); }
 
   /// The Coulomb force, null in a scene without charge, and the chain, both as the last evaluation left them.
   const CoulombForce<D>* coulomb() const { return coulomb_; }
@@ -48,6 +54,7 @@ class EquationsOfMotion final : public RightHandSide<D> {
   Nozzle<D> nozzle_;
   std::unique_ptr<StressLaw<D>> stress_law_;
   std::vector<std::unique_ptr<ForceTerm<D>>> terms_;
+  std::vector<std::unique_ptr<ColumnRate<D>>> column_rates_;
   CoulombForce<D>* coulomb_ = nullptr;  ///< one of the terms
   Threads threads_;
   Chain<D> chain_;

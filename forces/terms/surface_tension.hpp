@@ -2,7 +2,7 @@
 /// Surface tension pulls a bead towards the centre of the circle through it and its two neighbours,
 ///
 ///     f_i = k pi ((a_i + a_{i-1}) / 2)^2 alpha c_i ,      k = 1 / R,
-///     a_i = (L_step A / m_i) k / 4 (1 / sqrt(l_i) + 1 / sqrt(l_{i-1}))^2 c_i .
+///     a_i = (L_step A / m_i) k / 4 (sqrt(V_i / l_i) + sqrt(V_{i-1} / l_{i-1}))^2 c_i .
 ///
 /// The oldest bead is a free end and has no curvature. While a bead is held it is the upper neighbour of the
 /// youngest one, although l_i reaches to the nozzle (JETSPIN's rule, kept). Source: paper, Sec. "Equations of

@@ -1,14 +1,21 @@
 #pragma once
 /// A force term: what it adds to the acceleration of the beads.
 ///
-/// A term works on a share of rows, so that one indirect call serves a whole loop. `prepare` runs once an
-/// evaluation, before any `add`, and may use the threads it is given; `add` runs concurrently on disjoint
-/// rows and writes those rows only. Scaled: the result is a force over the mass of the bead it acts on.
+/// A term works on a share of rows, so that one indirect call serves a whole loop. Its stencil: for row i it
+/// reads beads i-1, i and i+1 (the nozzle or the held bead above the youngest), elements i-1 and i, time and
+/// velocities (core/jet/chain.hpp); only the Coulomb sum reads all. So multirate and subdomains may ask for
+/// any range of rows, with no more than its neighbours set.
+///
+/// `prepare` runs before any `add` of the same evaluation, for ranges of rows that cover those of the `add`s,
+/// and may use the threads it is given; what it sets for one range stands until the evaluation is over. `add`
+/// runs concurrently on disjoint rows and writes those rows only. Scaled: the result is a force over the mass
+/// of the bead it acts on.
 
 #include <algorithm>
 #include <string_view>
 
 #include "core/jet/chain.hpp"
+#include "core/jet/columns.hpp"
 #include "core/jet/local_jacobian.hpp"
 #include "parallel/threads.hpp"
 
@@ -31,10 +38,15 @@ class ForceTerm {
  public:
   virtual ~ForceTerm() = default;
   virtual std::string_view name() const = 0;
-  virtual void prepare(const Chain<D>&, Threads) {}
+  virtual void prepare(const Chain<D>&, Rows, Threads) {}
   virtual void add(const Chain<D>& chain, Rows rows, Acceleration<D>& a) const = 0;
 
-  /// Adds what the term contributes to the tension's answer; nothing if its force is slow or not local.
+  /// Whether the force on a bead far from the ends, left to itself, changes so smoothly in time that
+  /// multirate may extrapolate it over several steps.
+  virtual bool extrapolates() const { return true; }
+
+  /// Adds what the term contributes to the tension's answer, or to that of a bead's acceleration to its own
+  /// velocity; nothing if its force is slow or not local.
   virtual void differentiate(const Chain<D>&, LocalJacobian<D>&) const {}
 };
 
@@ -48,6 +60,17 @@ class StressLaw {
 
   /// The derivative of the rate of stress by the strain rate; that by the stress is -1 in every law here.
   virtual double by_strain_rate(const Chain<D>& chain, int element) const = 0;
+};
+
+/// The rate of a column that a scene adds to the state of its beads (core/jet/columns.hpp). Its stencil is
+/// that of a force term.
+template <int D>
+class ColumnRate {
+ public:
+  virtual ~ColumnRate() = default;
+  virtual Column column() const = 0;
+  /// `added`: the place of the column among the added ones.
+  virtual void set(const Chain<D>& chain, int added, Rows rows, Eigen::Ref<Eigen::ArrayXd> rate) const = 0;
 };
 
 }  // namespace treejet

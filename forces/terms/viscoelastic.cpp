@@ -12,11 +12,13 @@ namespace {
 template <int D>
 struct Arrays {
   std::array<const double*, D> t;
-  const double *stress, *inverse_length, *inverse_mass;
+  const double *stress, *inverse_length, *volume, *inverse_mass;
   std::array<double*, D> a;
   double coefficient;
 
-  double tension(int element) const { return coefficient * stress[element] * inverse_length[element]; }
+  double tension(int element) const {
+    return coefficient * stress[element] * inverse_length[element] * volume[element];
+  }
 
   void pull_up(int i) const {
     const double pull = tension(i);
@@ -42,21 +44,23 @@ TREEJET_SIMD_CLONES void add_between_elements(Arrays<D> bead, int first, int las
 
 template <int D>
 void Viscoelastic<D>::add(const Chain<D>& c, Rows rows, Acceleration<D>& a) const {
-  const Arrays<D> bead{columns<D>(c.tangent), c.stress.data(), c.inverse_length.data(),
-                       c.inverse_mass.data(), columns<D>(a),   coefficient_};
+  const Arrays<D> bead{columns<D>(c.tangent), c.stress.data(),       c.inverse_length.data(),
+                       c.volume.data(),       c.inverse_mass.data(), columns<D>(a),
+                       coefficient_};
   if (rows.first == 0) bead.pull_up(0);
   add_between_elements(bead, std::max(rows.first, 1), rows.last);
 }
 
-/// T = C sigma d / l^2:   dT/dd = C sigma / l^2 (1 - 2 t t') ,   dT/dsigma = C t / l .
+/// T = C V sigma d / l^2:   dT/dd = C V sigma / l^2 (1 - 2 t t') ,   dT/dsigma = C V t / l .
 template <int D>
 void Viscoelastic<D>::differentiate(const Chain<D>& c, LocalJacobian<D>& J) const {
   for (int i = 0; i < c.beads; ++i) {
     const Vec<D> t = c.tangent.row(i).matrix().transpose();
-    const double stiffness = coefficient_ * c.stress[i] * c.inverse_length[i] * c.inverse_length[i];
+    const double stiffness =
+        coefficient_ * c.volume[i] * c.stress[i] * c.inverse_length[i] * c.inverse_length[i];
     J.element[i].tension_by_d +=
         stiffness * (Eigen::Matrix<double, D, D>::Identity() - 2 * t * t.transpose());
-    J.element[i].tension_by_stress += coefficient_ * c.inverse_length[i] * t;
+    J.element[i].tension_by_stress += coefficient_ * c.volume[i] * c.inverse_length[i] * t;
   }
 }
 

@@ -3,9 +3,10 @@
 ///
 ///     f_i = - pi a_i^2 sigma_i t_i + pi a_{i-1}^2 sigma_{i-1} t_{i-1} ,
 ///
-/// and with the volume of an element conserved, pi a_i^2 = pi a_0^2 l_step / l_i,
+/// and with the volume of an element conserved, pi a_i^2 = pi a_0^2 l_step V_i / l_i (V_i = 1 for an initial
+/// bead),
 ///
-///     a_i = (L_step F_ve / m_i) ( - sigma_i / l_i t_i + sigma_{i-1} / l_{i-1} t_{i-1} ) .
+///     a_i = (L_step F_ve / m_i) ( - V_i sigma_i / l_i t_i + V_{i-1} sigma_{i-1} / l_{i-1} t_{i-1} ) .
 ///
 /// Element i joins bead i and its upper neighbour (core/jet/chain.hpp); the oldest bead has no element below
 /// it. Source: paper, Sec. "Equations of motion" (which labels the elements i and i+1) and the scaled Newton

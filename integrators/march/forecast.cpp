@@ -5,26 +5,25 @@
 namespace treejet {
 
 template <int D>
-double Forecast<D>::next_event(const Jet<D>& jet, const SolutionPoint<D>& now, double horizon) const {
+double Forecast<D>::next_event(const Jet<D>& jet, double horizon) const {
   double soonest = horizon;
   if (nozzle_.inserting()) {
-    const double regular = rhythm_.next(jet.held).value_or(now.t);
-    soonest = regular > now.t ? std::min(horizon, regular - now.t) : time_to(true, jet, now, horizon);
+    const double regular = rhythm_.next(jet.held).value_or(jet.t);
+    soonest = regular > jet.t ? std::min(horizon, regular - jet.t) : time_to(true, jet, horizon);
   }
-  return collector_.removing() ? time_to(false, jet, now, soonest) : soonest;
+  return collector_.removing() ? time_to(false, jet, soonest) : soonest;
 }
 
 /// By the motion of the youngest or the oldest bead; `horizon` if that is sooner.
 template <int D>
-double Forecast<D>::time_to(bool insertion, const Jet<D>& jet, const SolutionPoint<D>& now,
-                            double horizon) const {
-  const Eigen::Index i = insertion ? now.y.rows() - 1 : 0;
+double Forecast<D>::time_to(bool insertion, const Jet<D>& jet, double horizon) const {
+  const Eigen::Index i = insertion ? jet.y.rows() - 1 : 0;
   const auto& jerk = insertion ? youngest_jerk_ : oldest_jerk_;
-  const Vec<D> r = position<D>(now.y, i), v = velocity<D>(now.y, i), a = velocity<D>(now.slope, i);
+  const Vec<D> r = position<D>(jet.y, i), v = velocity<D>(jet.y, i), a = velocity<D>(jet.slope, i);
   const auto overdue = [&](double s) {
     Vec<D> ahead = r + s * (v + s / 2 * a);
     if (jerk) ahead += s * s * s / 6 * *jerk;
-    return insertion ? nozzle_.overdue(jet, ahead, now.t + s) : collector_.overdue(ahead[0]);
+    return insertion ? nozzle_.overdue(jet, ahead, jet.t + s) : collector_.overdue(ahead[0]);
   };
   double low = 0, high = horizon, g_low = overdue(low), g_high = overdue(high);
   if (!(g_low < 0 && g_high >= 0)) return horizon;

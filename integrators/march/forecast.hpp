@@ -19,15 +19,15 @@ class Forecast final : public Observer<D> {
  public:
   Forecast(const Nozzle<D>& nozzle, const Collector& collector) : nozzle_(nozzle), collector_(collector) {}
 
-  /// Time from `now` to the next event, at most `horizon`.
-  double next_event(const Jet<D>& jet, const SolutionPoint<D>& now, double horizon) const;
+  /// Time from now, jet.t, to the next event, at most `horizon`.
+  double next_event(const Jet<D>& jet, double horizon) const;
 
   void segment(const Jet<D>& jet, const DenseOutput<D>& segment) override;
   void event(EventKind kind, const Jet<D>& jet) override;
   void visit(Archive& state) override { state(rhythm_, youngest_jerk_, oldest_jerk_); }
 
  private:
-  double time_to(bool insertion, const Jet<D>& jet, const SolutionPoint<D>& now, double horizon) const;
+  double time_to(bool insertion, const Jet<D>& jet, double horizon) const;
 
   const Nozzle<D>& nozzle_;
   const Collector& collector_;

@@ -23,14 +23,14 @@ void halt_if(const std::optional<std::string>& state_check, double t) {
 }  // namespace
 
 template <int D>
-void March<D>::evaluate(SolutionPoint<D>& node, const State<D>* known) {
-  effort_.evaluations += parts_.motion.on_accepted_step(parts_.jet, node.t, node.y, known, node.slope);
+void March<D>::evaluate(SolutionPoint<D>& point, const State<D>* known) {
+  effort_.evaluations += parts_.motion.on_accepted_step(jet_, point.t, point.y, known, point.slope);
 }
 
 template <int D>
 double March<D>::overdue(bool insertion, const State<D>& y, double t) const {
   const Eigen::Index last = y.rows() - 1;
-  if (insertion) return parts_.nozzle.overdue(parts_.jet, position<D>(y, last), t);
+  if (insertion) return parts_.nozzle.overdue(jet_, position<D>(y, last), t);
   return parts_.collector.overdue(y(0, 0));
 }
 
@@ -79,14 +79,15 @@ std::optional<typename March<D>::Due> March<D>::first_event(const DenseOutput<D>
 
 template <int D>
 void March<D>::step(double h) {
-  fast_region_ = parts_.motion.fast_region(parts_.jet, now_);
+  fast_region_ = parts_.motion.fast_region(jet_);
   if (fast_region_) {
-    parts_.stepper.step(parts_.motion, fast_region_->jet, fast_region_->from, h, fast_next_);
-    parts_.motion.complete(parts_.jet, now_, h, fast_next_, next_.y);
+    const Jet<D>& fast = fast_region_->jet;
+    parts_.stepper.step(parts_.motion, fast, fast, h, fast_next_);
+    parts_.motion.complete(jet_, h, fast_next_, next_.y);
   } else {
-    parts_.stepper.step(parts_.motion, parts_.jet, now_, h, next_.y);
+    parts_.stepper.step(parts_.motion, jet_, jet_, h, next_.y);
   }
-  next_.t = now_.t + h;
+  next_.t = jet_.t + h;
   effort_.evaluations += parts_.stepper.evaluations();
   ++effort_.steps;
 }
@@ -96,48 +97,48 @@ template <int D>
 double March<D>::error() const {
   const State<D>& e = parts_.stepper.error;
   if (e.rows() == 0) return 0;
-  return parts_.decomposition.greatest(parts_.norm(e, fast_region_ ? fast_region_->from.y : now_.y));
+  return parts_.decomposition.greatest(parts_.norm(e, fast_region_ ? fast_region_->jet.y : jet_.y));
 }
 
 template <int D>
 void March<D>::give_up() const {
   const State<D>& error = parts_.stepper.error;
   Eigen::Index bead = 0;
-  const bool of_these = next_.y.rows() == now_.y.rows();  // no event has changed their number since
+  const bool of_these = next_.y.rows() == jet_.size();  // no event has changed their number since
   if (error.rows() > 0 && of_these) {
     error.abs().rowwise().maxCoeff().maxCoeff(&bead);
-    if (fast_region_ && bead >= fast_region_->oldest) bead += now_.y.rows() - error.rows();
+    if (fast_region_ && bead >= fast_region_->oldest) bead += jet_.size() - error.rows();
   }
   throw NumericalError(
       fmt::format("at scaled time {}: the step has fallen below round-off because of bead {} (number {} "
                   "since the start); "
                   "likely cause: beads have met, or the tolerance is too small to be met",
-                  now_.t, bead, parts_.decomposition.before(parts_.jet) + bead));
+                  jet_.t, bead, parts_.decomposition.before(jet_) + bead));
 }
 
-/// Steps from now_ to next_ until the step control is content; returns the time up to which an event may be
+/// Steps from here to next_ until the step control is content; returns the time up to which an event may be
 /// met on the extrapolated solution.
 template <int D>
 double March<D>::attempt(double end) {
   while (true) {
     const double longest = parts_.motion.longest_step();
-    double h = std::min(parts_.control.proposal(now_.t, end), longest);
+    double h = std::min(parts_.control.proposal(jet_.t, end), longest);
     bool aimed = false;
     if (aims()) {
       // steps of one length up to the event
       constexpr double stretch = 1.1, steps = 4;
       const double most = std::min(stretch * h, longest), horizon = steps * most;
-      const double ahead = forecast_.next_event(parts_.jet, now_, horizon);
+      const double ahead = forecast_.next_event(jet_, horizon);
       if (ahead < horizon) {
         const double n = std::max(std::ceil(ahead / most), 1.0);
         aimed = n == 1;
         h = ahead / n;
       }
-      h = std::min(h, end - now_.t);
+      h = std::min(h, end - jet_.t);
     }
-    if (!(now_.t + h > now_.t)) give_up();
+    if (!(jet_.t + h > jet_.t)) give_up();
     step(h);
-    if (!parts_.control.accepts(now_.t, h, error())) {
+    if (!parts_.control.accepts(jet_.t, h, error())) {
       ++effort_.rejected;
       continue;
     }
@@ -147,16 +148,13 @@ double March<D>::attempt(double end) {
 
 template <int D>
 void March<D>::start() {
-  now_.t = parts_.jet.t;
-  now_.y = parts_.jet.y;
-  for (auto* w : parts_.observers) w->start(parts_.jet);
-  evaluate(now_);
-  halt_if(not_finite<D>(now_.y, now_.slope, parts_.decomposition.before(parts_.jet)), now_.t);
+  for (auto* w : parts_.observers) w->start(jet_);
+  evaluate(jet_);
+  halt_if(not_finite<D>(jet_.y, jet_.slope, parts_.decomposition.before(jet_)), jet_.t);
   // a nozzle that circles far off the axis begins beyond the place where it lets a bead go
-  if (parts_.nozzle.inserting() && overdue(true, now_.y, now_.t) > 0) {
-    settle({now_.t, /*insertion*/ true});
-    now_.y = parts_.jet.y;
-    evaluate(now_);
+  if (parts_.nozzle.inserting() && overdue(true, jet_.y, jet_.t) > 0) {
+    settle({jet_.t, /*insertion*/ true});
+    evaluate(jet_);
   }
   under_way_ = true;
 }
@@ -164,10 +162,10 @@ void March<D>::start() {
 template <int D>
 bool March<D>::to(double end) {
   if (!under_way_) start();
-  while (now_.t < end && now_.y.rows() > 0) {
+  while (jet_.t < end && jet_.size() > 0) {
     if (parts_.stop_here && parts_.stop_here()) return false;
     const double reach = attempt(end);
-    halt_if(state_check<D>(now_.y, next_.y, parts_.nozzle.l_step(), parts_.decomposition.before(parts_.jet)),
+    halt_if(state_check<D>(jet_.y, next_.y, parts_.nozzle.l_step(), parts_.decomposition.before(jet_)),
             next_.t);
     evaluate(next_, parts_.stepper.slope_at_end());
     if (parts_.events == EventRule::step) {
@@ -177,30 +175,28 @@ bool March<D>::to(double end) {
       commit(located_event(reach));
     }
   }
-  parts_.jet.t = now_.t;
-  parts_.jet.y = now_.y;
-  for (auto* w : parts_.observers) w->finish(parts_.jet);
+  for (auto* w : parts_.observers) w->finish(jet_);
   under_way_ = false;
   return true;
 }
 
 template <int D>
 void March<D>::visit(Archive& state) {
-  state(parts_.jet, parts_.motion, parts_.control, now_, forecast_, effort_, under_way_);
+  state(jet_, parts_.motion, parts_.control, forecast_, effort_, under_way_);
 }
 
 /// The event that ends this step, if any. An adaptive step with an event well inside is made anew to end
 /// there.
 template <int D>
 std::optional<typename March<D>::Due> March<D>::located_event(double reach) {
-  const double h = next_.t - now_.t;
-  auto due = first_event(DenseOutput<D>(now_, next_), reach);
+  const double h = next_.t - jet_.t;
+  auto due = first_event(DenseOutput<D>(jet_, next_), reach);
   // one that is due at the very beginning ends the step there
-  if (due && aims() && due->t > now_.t && due->t < next_.t - dense_fraction * h) {
+  if (due && aims() && due->t > jet_.t && due->t < next_.t - dense_fraction * h) {
     ++effort_.retaken;
-    step(due->t - now_.t);
+    step(due->t - jet_.t);
     evaluate(next_, parts_.stepper.slope_at_end());
-    due = first_event(DenseOutput<D>(now_, next_), next_.t + dense_fraction * h);
+    due = first_event(DenseOutput<D>(jet_, next_), next_.t + dense_fraction * h);
   }
   return due;
 }
@@ -208,19 +204,17 @@ std::optional<typename March<D>::Due> March<D>::located_event(double reach) {
 /// Shows the watchers the solution up to the event, or the whole step, and goes there.
 template <int D>
 void March<D>::commit(std::optional<Due> due) {
-  DenseOutput<D> segment(now_, next_);
+  DenseOutput<D> segment(jet_, next_);
   if (due) segment.until = due->t;
-  for (auto* w : parts_.observers) w->segment(parts_.jet, segment);
-  if (aims()) forecast_.segment(parts_.jet, segment);
+  for (auto* w : parts_.observers) w->segment(jet_, segment);
+  if (aims()) forecast_.segment(jet_, segment);
   if (due) {
-    parts_.jet.t = due->t;
-    parts_.jet.y = segment.at(due->t);
+    jet_.y = segment.at(due->t);  // of which the jet is the beginning
+    jet_.t = due->t;
     settle(*due);
-    now_.t = parts_.jet.t;
-    now_.y = parts_.jet.y;
-    if (now_.y.rows() > 0) evaluate(now_);
+    if (jet_.size() > 0) evaluate(jet_);
   } else {
-    std::swap(now_, next_);
+    std::swap<SolutionPoint<D>>(jet_, next_);
   }
 }
 
@@ -228,22 +222,21 @@ void March<D>::commit(std::optional<Due> due) {
 template <int D>
 void March<D>::announce(EventKind kind) {
   parts_.control.event(kind);
-  forecast_.event(kind, parts_.jet);
-  for (auto* w : parts_.observers) w->event(kind, parts_.jet);
+  forecast_.event(kind, jet_);
+  for (auto* w : parts_.observers) w->event(kind, jet_);
 }
 
 template <int D>
 void March<D>::insertion() {
-  Jet<D>& jet = parts_.jet;
-  const EventKind kind = jet.held ? EventKind::release : EventKind::place;
-  if (under_way_) parts_.nozzle.check_timely(jet);
-  if (jet.held) {
-    parts_.nozzle.release(jet);
-    parts_.motion.after_release(jet);
-    parts_.decomposition.after_release(jet);
+  const EventKind kind = jet_.held ? EventKind::release : EventKind::place;
+  if (under_way_) parts_.nozzle.check_timely(jet_);
+  if (jet_.held) {
+    parts_.nozzle.release(jet_);
+    parts_.motion.after_release(jet_);
+    parts_.decomposition.after_release(jet_);
     ++effort_.released;
   } else {
-    parts_.nozzle.place(jet);
+    parts_.nozzle.place(jet_);
     ++effort_.placed;
   }
   announce(kind);
@@ -251,29 +244,27 @@ void March<D>::insertion() {
 
 template <int D>
 void March<D>::removal() {
-  Jet<D>& jet = parts_.jet;
-  if (jet.size() == 1 && parts_.nozzle.inserting()) {
+  if (jet_.size() == 1 && parts_.nozzle.inserting()) {
     throw NumericalError(
         fmt::format("at scaled time {}: the only bead of the jet has reached the collector before "
                     "another could be inserted; likely cause: the time step is too large",
-                    jet.t));
+                    jet_.t));
   }
   announce(EventKind::removal);
-  parts_.motion.before_removal(jet);
-  drop_first<D>(jet);
-  parts_.decomposition.after_removal(jet);
+  parts_.motion.before_removal(jet_);
+  drop_first<D>(jet_);
+  parts_.decomposition.after_removal(jet_);
   ++effort_.removed;
 }
 
 template <int D>
 void March<D>::settle(const Due& due) {
-  Jet<D>& jet = parts_.jet;
   const double slack = -simultaneous * parts_.nozzle.l_step();
   due.insertion ? insertion() : removal();
-  while (jet.size() > 0) {
-    if (parts_.nozzle.inserting() && overdue(true, jet.y, jet.t) >= slack) {
+  while (jet_.size() > 0) {
+    if (parts_.nozzle.inserting() && overdue(true, jet_.y, jet_.t) >= slack) {
       insertion();
-    } else if (parts_.collector.removing() && overdue(false, jet.y, jet.t) >= slack) {
+    } else if (parts_.collector.removing() && overdue(false, jet_.y, jet_.t) >= slack) {
       removal();
     } else {
       break;
@@ -283,16 +274,12 @@ void March<D>::settle(const Due& due) {
 
 template <int D>
 void March<D>::look_at_step_end() {
-  Jet<D>& jet = parts_.jet;
-  const bool inserts = parts_.nozzle.inserting() && overdue(true, now_.y, now_.t) >= 0;
-  const bool removes = parts_.collector.removing() && overdue(false, now_.y, now_.t) > 0;
+  const bool inserts = parts_.nozzle.inserting() && overdue(true, jet_.y, jet_.t) >= 0;
+  const bool removes = parts_.collector.removing() && overdue(false, jet_.y, jet_.t) > 0;
   if (!inserts && !removes) return;
-  jet.t = now_.t;
-  jet.y = now_.y;
   if (inserts) insertion();
   if (removes) removal();
-  now_.y = jet.y;
-  if (now_.y.rows() > 0) evaluate(now_);
+  if (jet_.size() > 0) evaluate(jet_);
 }
 
 template class March<1>;

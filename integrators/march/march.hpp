@@ -48,14 +48,17 @@ class March {
   };
 
   explicit March(const Parts& parts)
-      : parts_(parts), forecast_(parts.nozzle, parts.collector), one_(1, 2 * D + 1) {}
+      : parts_(parts),
+        jet_(parts.jet),
+        forecast_(parts.nozzle, parts.collector),
+        one_(1, parts.jet.y.cols()) {}
 
   /// On to scaled time `end`, or until the jet is empty. False if told to pause before; the next call goes on
   /// from there.
   bool to(double end);
 
   const Effort& effort() const { return effort_; }
-  double t() const { return now_.t; }
+  double t() const { return jet_.t; }
 
   /// All between two steps: the march, what it moves and by what rules. Not the watchers.
   void visit(Archive& state);
@@ -68,7 +71,7 @@ class March {
 
   bool aims() const { return parts_.control.steps_to_events() && parts_.events == EventRule::located; }
   void start();
-  void evaluate(SolutionPoint<D>& node, const State<D>* known = nullptr);
+  void evaluate(SolutionPoint<D>& point, const State<D>* known = nullptr);
   void step(double h);
   double error() const;
   [[noreturn]] void give_up() const;
@@ -86,8 +89,9 @@ class March {
   void look_at_step_end();
 
   Parts parts_;
-  SolutionPoint<D> now_, next_;
-  const FastRegion<D>* fast_region_ = nullptr;  ///< through the last step, null if all beads were
+  Jet<D>& jet_;                                 ///< the solution now
+  SolutionPoint<D> next_;                       ///< the end of a step, until the jet goes there
+  const FastRegion<D>* fast_region_ = nullptr;  ///< through the last step, null if all beads were integrated
   State<D> fast_next_;
   Forecast<D> forecast_;
   State<D> one_;

@@ -40,9 +40,9 @@ class AdditiveRungeKutta final : public Stepper<D> {
     f.differentiate(jet, from.t, from.y, J_);
     solver_.factor(J_, s);
     rest_[0] = from.slope;
-    linear_[0].setZero(from.y.rows(), 2 * D + 1);
+    linear_[0].setZero(from.y.rows(), from.y.cols());
     for (int i = 1; i <= last; ++i) {
-      known_.setZero(from.y.rows(), 2 * D + 1);
+      known_.setZero(from.y.rows(), from.y.cols());
       for (int j = 0; j < i; ++j)
         known_ += h * (Tableau::explicit_part[i][j] * rest_[j] + Tableau::implicit_part[i][j] * linear_[j]);
       Z_ = known_;
@@ -52,7 +52,7 @@ class AdditiveRungeKutta final : public Stepper<D> {
       f(jet, from.t + Tableau::c[i] * h, next, rest_[i]);
       rest_[i] -= linear_[i];
     }
-    this->error.setZero(from.y.rows(), 2 * D + 1);
+    this->error.setZero(from.y.rows(), from.y.cols());
     for (int i = 0; i <= last; ++i) {
       next += h * (Tableau::b[i] - Tableau::explicit_part[last][i]) * rest_[i];
       this->error += h * (Tableau::b[i] - Tableau::partner[i]) * (rest_[i] + linear_[i]);

@@ -7,7 +7,8 @@
 ///     u_r = g_r + s u_v ,
 ///     u_sigma = p (g_sigma + s rate_by_d . [g_r]) + p s (s rate_by_d + rate_by_w) . [u_v] ,
 ///     E_i = s tension_by_d + tension_by_stress (p s (s rate_by_d + rate_by_w))' ,
-///     m_i u_v,i + s E_i [u_v]_i - s E_{i-1} [u_v]_{i-1} = m_i g_v,i - s tau_i + s tau_{i-1} .
+///     (m_i - s m_i acceleration_by_v_i) u_v,i + s E_i [u_v]_i - s E_{i-1} [u_v]_{i-1}
+///         = m_i g_v,i - s tau_i + s tau_{i-1} .
 ///
 /// What is left is block tridiagonal with D-by-D blocks: a twelfth of the work of 7-by-7 ones for D = 3.
 
@@ -36,6 +37,7 @@ class ChainSolver {
       const double per_mass = s * J.inverse_mass[static_cast<Eigen::Index>(i)];
       velocities_.row[i].below = -per_mass * E_below;
       velocities_.row[i].diagonal = Block::Identity() + per_mass * (E + E_below);
+      if (!J.acceleration_by_v.empty()) velocities_.row[i].diagonal -= s * J.acceleration_by_v[i];
       velocities_.row[i].above = -per_mass * E;
       E_below = E;
     }

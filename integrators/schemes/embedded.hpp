@@ -66,7 +66,7 @@ class EmbeddedRungeKutta final : public Stepper<D> {
       w[n] = h * weight(i, static_cast<int>(j));
       k[n++] = j == 0 ? first.data() : k_[j].data();
     }
-    out.resize(first.rows(), Eigen::NoChange);
+    out.resize(first.rows(), first.cols());
     weighted_sum(y ? y->data() : nullptr, w, k, first.size(), out.data());
   }
 

@@ -37,12 +37,9 @@ class Limited final : public RightHandSide<D> {
   void differentiate(const Jet<D>& jet, double t, const State<D>& y, LocalJacobian<D>& J) override {
     motion_.differentiate(jet, t, y, J);
   }
-  const FastRegion<D>* fast_region(const Jet<D>& jet, const SolutionPoint<D>& from) override {
-    return motion_.fast_region(jet, from);
-  }
-  void complete(const Jet<D>& jet, const SolutionPoint<D>& from, double h, const State<D>& some,
-                State<D>& next) override {
-    motion_.complete(jet, from, h, some, next);
+  const FastRegion<D>* fast_region(const Jet<D>& jet) override { return motion_.fast_region(jet); }
+  void complete(const Jet<D>& jet, double h, const State<D>& some, State<D>& next) override {
+    motion_.complete(jet, h, some, next);
   }
   void before_removal(const Jet<D>& jet) override { motion_.before_removal(jet); }
   void after_release(const Jet<D>& jet) override { motion_.after_release(jet); }

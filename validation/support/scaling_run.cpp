@@ -52,6 +52,7 @@ Jet<3> refined(const Jet<3>& jet, const Nozzle<3>& nozzle, int pieces) {
   out.y.resize(jet.size() * pieces, Eigen::NoChange);
   out.mass.setOnes(out.size());
   out.charge.setOnes(out.size());
+  out.volume.setOnes(out.size());
   for (Eigen::Index i = 0; i < out.size(); ++i) {
     const double part = double(i % pieces) / pieces;
     out.y.row(i) << pieces * between(jet.y, 0, i / pieces, part, end).transpose().array(),
@@ -63,8 +64,9 @@ Jet<3> refined(const Jet<3>& jet, const Nozzle<3>& nozzle, int pieces) {
 
 /// Some beads of a jet, by number.
 Jet<3> part(const Jet<3>& whole, const std::vector<int>& rows) {
-  return {whole.t,      whole.y(rows, Eigen::all), whole.mass(rows), whole.charge(rows), whole.held,
-          whole.removed};
+  Jet<3> some = at<3>(whole, whole.t, whole.y(rows, Eigen::all));
+  for (auto* constants : {&some.mass, &some.charge, &some.volume}) *constants = (*constants)(rows).eval();
+  return some;
 }
 
 struct Over {};

@@ -23,14 +23,6 @@ inline Parameters plain_parameters() {
   return p;
 }
 
-template <int D>
-struct Bead {
-  Bead(Vec<D> r = Vec<D>::Zero(), Vec<D> v = Vec<D>::Zero(), double sigma = 0, double m = 1, double q = 1)
-      : position(r), velocity(v), stress(sigma), mass(m), charge(q) {}
-  Vec<D> position, velocity;
-  double stress, mass, charge;
-};
-
 inline Bead<1> bead_at(double x, double v = 0, double stress = 0) {
   return Bead<1>(Vec<1>(x), Vec<1>(v), stress);
 }
@@ -38,8 +30,7 @@ inline Bead<1> bead_at(double x, double v = 0, double stress = 0) {
 template <int D>
 Jet<D> jet_of(const std::vector<Bead<D>>& beads) {
   Jet<D> jet;
-  jet.y.resize(0, Eigen::NoChange);
-  for (const auto& b : beads) append<D>(jet, b.position, b.velocity, b.stress, b.mass, b.charge);
+  for (const auto& bead : beads) append<D>(jet, bead);
   return jet;
 }
 

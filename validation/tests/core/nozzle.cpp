@@ -25,7 +25,7 @@ double strain_rate(const Jet<3>& jet, const Nozzle<3>& nozzle, Eigen::Index i) {
   Chain<3> chain;
   set_boundary<3>(chain, jet, nozzle, jet.t, jet.y);
   set_points<3>(chain, jet, jet.y, {0, jet.size()});
-  set_elements<3>(chain, jet, nozzle, jet.t, jet.y, {0, jet.size()});
+  set_elements<3>(chain, jet, jet.y, {0, jet.size()});
   return chain.strain_rate[i];
 }
 

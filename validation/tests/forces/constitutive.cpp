@@ -25,9 +25,9 @@ struct HomogeneousExtension final : ForceTerm<D> {
 double stress_rate(const StressLaw<1>& law, double strain_rate, double stress) {
   Chain<1> c;
   c.beads = 1;
-  c.strain_rate.setConstant(1, strain_rate);
-  c.stress.setConstant(1, stress);
-  Eigen::ArrayXd rate(1);
+  c.strain_rate.setConstant(2, strain_rate);
+  c.stress.setConstant(2, stress);
+  Eigen::ArrayXd rate(2);
   law.set(c, {0, 1}, rate);
   return rate[0];
 }

@@ -149,31 +149,30 @@ TEST_CASE("A release and a removal leave the continued slopes true") {
 
 namespace {
 
-/// A jet with three remembered moments behind it, and where it sets out from.
+/// A jet with three past evaluations behind it.
 struct Departure {
   Jet<3> jet;
   MultirateMotion<3> two;
-  SolutionPoint<3> from;
 
   explicit Departure(Run<3>& run) : jet(run.jet()), two(*run.scene.motion, ErrorNorm(run.parameters)) {
     for (int k = 0; k < 3; ++k) {
       if (k > 0) {
         jet.t += 0.01;
-        jet.y += 0.01 * from.slope;
+        jet.y += 0.01 * jet.slope;
       }
-      from = {jet.t, jet.y, {}};
-      two.on_accepted_step(jet, from.t, from.y, nullptr, from.slope);
+      two.on_accepted_step(jet, jet.t, jet.y, nullptr, jet.slope);
     }
   }
 
-  /// All beads after a step in which all of them were followed, or only those that must be.
+  /// All beads after a step that integrates all of them, or only the fast region.
   State<3> after(double h, bool all) {
     const auto scheme = stepper<3>(Scheme::verner6);
-    const FastRegion<3>* some = all ? nullptr : two.fast_region(jet, from);
+    const FastRegion<3>* some = all ? nullptr : two.fast_region(jet);
     CHECK((some == nullptr) == all);
     State<3> some_next, next;
-    scheme->step(two, some ? some->jet : jet, some ? some->from : from, h, some ? some_next : next);
-    if (some) two.complete(jet, from, h, some_next, next);
+    const Jet<3>& from = some ? some->jet : jet;
+    scheme->step(two, from, from, h, some ? some_next : next);
+    if (some) two.complete(jet, h, some_next, next);
     return next;
   }
 

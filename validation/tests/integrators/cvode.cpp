@@ -20,9 +20,9 @@ struct Problem {
 
 int right_hand_side(double t, N_Vector y, N_Vector slope, void* data) {
   auto& p = *static_cast<Problem*>(data);
-  p.y = Eigen::Map<const State<3>>(N_VGetArrayPointer(y), p.run.jet().size(), 7);
+  p.y = Eigen::Map<const State<3>::Base>(N_VGetArrayPointer(y), p.run.jet().size(), 7);
   (*p.run.scene.motion)(p.run.jet(), t, p.y, p.slope);
-  Eigen::Map<State<3>>(N_VGetArrayPointer(slope), p.run.jet().size(), 7) = p.slope;
+  Eigen::Map<State<3>::Base>(N_VGetArrayPointer(slope), p.run.jet().size(), 7) = p.slope;
   return 0;
 }
 

@@ -11,11 +11,10 @@ namespace {
 /// A coil of 1500 beads with uneven velocities and stresses, enough for five threads.
 Jet<3> coil(const Run<3>& run) {
   Jet<3> jet;
-  jet.y.resize(0, Eigen::NoChange);
   for (int i = 1500; i >= 1; --i) {
     const double s = 0.6 * i, turn = 0.05 * i;
     const Vec<3> r(s, 3 * std::cos(turn) - 3, 2 * std::sin(turn));
-    append<3>(jet, r, Vec<3>(std::sin(s), std::cos(2 * s), std::sin(3 * s)), std::cos(s), 1, 1);
+    append<3>(jet, {r, Vec<3>(std::sin(s), std::cos(2 * s), std::sin(3 * s)), std::cos(s)});
   }
   jet.t = 0.3;
   jet.held = run.jet().held;

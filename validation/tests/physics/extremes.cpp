@@ -26,7 +26,7 @@ std::string stop(Run<D>& run, double seconds) {
 
 template <int D>
 void add_bead(Run<D>& run, const Vec<D>& r, const Vec<D>& v = Vec<D>::Zero()) {
-  append<D>(run.scene.jet, r, v, 0, 1, 1);
+  append<D>(run.scene.jet, {r, v});
 }
 
 /// A stop names the bead, the time and a cause.
