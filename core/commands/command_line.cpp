@@ -124,6 +124,15 @@ void add_files(CLI::App& app, Arguments& a) {
 
 }  // namespace
 
+std::string for_shell(const std::string& text) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
 std::optional<Arguments> command_line(int argc, char** argv, const std::string& version_text) {
   Arguments a;
   CLI::App app{"Treejet: electrospinning jets as chains of charged viscoelastic beads", "treejet"};

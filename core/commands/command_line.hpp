@@ -31,4 +31,7 @@ struct Arguments {
 /// wrong ones.
 std::optional<Arguments> command_line(int argc, char** argv, const std::string& version_text);
 
+/// The text as one word of a shell: in quotes where it needs them.
+std::string for_shell(const std::string& text);
+
 }  // namespace treejet

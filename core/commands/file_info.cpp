@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/commands/command_line.hpp"
 #include "core/deck/observable_keys.hpp"
 #include "core/io/h5md.hpp"
 #include "core/io/run_record.hpp"
@@ -43,14 +44,15 @@ std::string trajectory(const fs::path& path) {
 
 std::string checkpoint(const fs::path& path) {
   const Checkpoint c = read_checkpoint(path);
-  std::string text = fmt::format("checkpoint at t = {:.10g} s; to go on: treejet run --resume {}\n{}\n", c.t,
-                                 path.has_parent_path() ? path.parent_path().string() : ".", c.program);
+  std::string text =
+      fmt::format("checkpoint at t = {:.10g} s; to go on: treejet run --resume {}\n{}\n", c.t,
+                  for_shell(path.has_parent_path() ? path.parent_path().string() : "."), c.program);
   return text + deck_description(c.deck_name, c.deck_text, c.overrides);
 }
 
 bool is_key_with_unit(const std::string& word) {
-  return std::any_of(observable_keys.begin(), observable_keys.end(),
-                     [&](const ObservableKey& k) { return word == fmt::format("{}[{}]", k.key, k.unit); });
+  const ObservableKey* known = observable_key(word.substr(0, word.find('[')));
+  return known && word == fmt::format("{}[{}]", known->key, known->unit);
 }
 
 /// Units hold blanks: "st[g/(cm s^2)]" is one label.

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "core/deck/observable_keys.hpp"
+#include "core/jet/schemes.hpp"
 #include "core/jet/stiffness.hpp"
 
 namespace treejet {
@@ -33,16 +35,14 @@ class Relations {
 
  private:
   void time() {
-    const bool adaptive = p_.integrator == Scheme::automatic || p_.integrator == Scheme::dopri5 ||
-                          p_.integrator == Scheme::verner6 || p_.integrator == Scheme::kencarp5;
+    const bool adaptive = properties(p_.integrator).adaptive;
     const double timestep = p_.timestep.value_or(0);
     error(is_given("timestep") && !is_given("tolerance") && adaptive, {"integrator", "timestep"},
-          "timestep needs integrator 1 (euler), 2 (heun) or 3 (rk4); auto, dopri5, verner6 and kencarp5 "
-          "choose the step "
-          "themselves and go with tolerance");
-    error(
-        is_given("tolerance") && !is_given("timestep") && !adaptive, {"integrator", "tolerance"},
-        "tolerance needs integrator auto, dopri5, verner6 or kencarp5; euler, heun and rk4 go with timestep");
+          fmt::format("timestep needs integrator {}; {} choose the step themselves and go with tolerance",
+                      scheme_words(false, "or", /*numbers*/ true), scheme_words(true, "and")));
+    error(is_given("tolerance") && !is_given("timestep") && !adaptive, {"integrator", "tolerance"},
+          fmt::format("tolerance needs integrator {}; {} go with timestep", scheme_words(true, "or"),
+                      scheme_words(false, "and")));
     error(timestep >= p_.final_time, {"timestep", "final time"},
           fmt::format("expected less than final time ({} s)", p_.final_time));
     error(p_.print_time.value_or(0) > p_.final_time, {"print time", "final time"},
@@ -126,9 +126,26 @@ class Relations {
     for (const char* detail : {"print xyz maxnum", "print xyz rescale"})
       note(!p_.print_xyz && is_given(detail), detail, "no effect without print xyz and an interval");
     note(is_given("seed"), "seed", "no effect: nothing here is random");
+    interval("print time", p_.print_time);
+    interval("print xyz", p_.print_xyz);
+    interval("print hdf5", p_.print_hdf5);
   }
 
-  /// What a jet held in pieces cannot do.
+  /// Samples far closer than steps would fill any disk, and no signal is seen within a step.
+  void interval(std::string_view words, const std::optional<double>& seconds) {
+    constexpr double most_samples = 1e9;
+    const double timestep = p_.timestep.value_or(0);
+    if (!seconds) return;
+    error(p_.final_time / *seconds > most_samples, {words, "final time"},
+          fmt::format("expected at least {:.3g} s: at most {:.0e} samples of final time ({} s)",
+                      p_.final_time / most_samples, most_samples, p_.final_time));
+    error(timestep / *seconds > most_samples_of_a_step && p_.final_time / *seconds <= most_samples,
+          {words, "timestep"},
+          fmt::format("expected at least {:.3g} s: at most {:.0e} samples of a step ({} s)",
+                      timestep / most_samples_of_a_step, most_samples_of_a_step, timestep));
+  }
+
+  /// What a jet in pieces cannot do.
   void pieces() {
     if (p_.parallel == ParallelData::replicated) return;
     error(p_.system == 1, {"parallel", "system"}, "expected parallel replicated in system 1");
@@ -141,12 +158,11 @@ class Relations {
     error(p_.checkpoint.has_value(), {"parallel", "checkpoint"},
           "expected no checkpoint: none can be written");
     if (sound("viscosity") && sound("elastic modulus"))
-      error(chosen_scheme(p_) == Scheme::kencarp5, {"parallel", "integrator"},
+      error(properties(chosen_scheme(p_)).implicit, {"parallel", "integrator"},
             "expected an explicit integrator: the local terms of a chain in pieces are not solved for");
     for (const auto* list : {&p_.print_list, &p_.printstat_list})
-      for (const char* key : {"lp", "rlp"})
-        error(std::count(list->begin(), list->end(), key) > 0,
-              {"parallel", list == &p_.print_list ? "print list" : "printstat list"},
+      for (const std::string& key : *list)
+        error(has(key, along_path), {"parallel", list == &p_.print_list ? "print list" : "printstat list"},
               fmt::format("expected no {} in the lists: the path along the jet is not followed", key));
   }
 

@@ -1,6 +1,10 @@
 #include "core/deck/directives.hpp"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
+
+#include "core/jet/schemes.hpp"
 
 namespace treejet {
 
@@ -18,6 +22,10 @@ constexpr Check an_order{"from 2 to 14", [](double v) { return v >= 2 && v <= 14
 constexpr Check an_opening{"above 0 and at most 0.9", [](double v) { return v > 0 && v <= 0.9; }};
 constexpr Check a_leaf{"a positive multiple of 16",
                        [](double v) { return v > 0 && v == 16 * double(int(v / 16)); }};
+
+const std::string integrators =
+    fmt::format("{} with timestep; {} with tolerance; auto takes kencarp5 for stiff scenes",
+                scheme_words(false, "or", /*numbers*/ true), scheme_words(true, "or"));
 
 // clang-format off
 const Directive table[] = {
@@ -37,8 +45,7 @@ const Directive table[] = {
     {.words = "timestep", .member = &P::timestep, .unit = "s", .check = positive,
      .meaning = "fixed time step", .or_else = "tolerance"},
     {.words = "integrator", .member = &P::integrator,
-     .meaning = "1 euler, 2 heun, 3 rk4 with timestep; auto, dopri5, verner6, kencarp5 (for stiff "
-                "scenes, also taken by auto) with tolerance",
+     .meaning = integrators,
      .absent = "auto; mandatory with timestep"},
     {.words = "events", .member = &P::events,
      .meaning = "insertion and removal at their exact time (located) or at the end of a step, as JETSPIN does (step)"},

@@ -1,6 +1,10 @@
 /// The table of directives written out: as a deck and as documentation.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <utility>
+#include <vector>
 
 #include "core/deck/deck.hpp"
 #include "core/deck/directives.hpp"
@@ -69,8 +73,14 @@ std::string directive_reference() {
 
 std::string key_reference() {
   std::string table = "| key | unit | meaning | |\n|---|---|---|---|\n";
-  for (const ObservableKey& k : observable_keys)
-    table += fmt::format("| `{}` | {} | {} | {} |\n", k.key, k.unit, k.meaning, k.averaged ? "averaged" : "");
+  constexpr std::pair<ObservableProperty, const char*> notes[] = {
+      {averaged, "averaged"}, {at_arrivals, "NaN without arrivals"}, {across_axis, "0 in system 1"}};
+  for (const ObservableKey& k : observable_keys) {
+    std::vector<std::string_view> remarks;
+    for (const auto& [property, note] : notes)
+      if (has(k.key, property)) remarks.push_back(note);
+    table += fmt::format("| `{}` | {} | {} | {} |\n", k.key, k.unit, k.meaning, fmt::join(remarks, ", "));
+  }
   return table;
 }
 

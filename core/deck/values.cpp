@@ -9,6 +9,7 @@
 #include "core/deck/number.hpp"
 #include "core/deck/observable_keys.hpp"
 #include "core/deck/suggestion.hpp"
+#include "core/jet/schemes.hpp"
 
 namespace treejet {
 
@@ -24,16 +25,6 @@ struct Word {
 
 // The first word of a value is the one it is printed with.
 constexpr Word<bool> yes_no[] = {{"yes", true}, {"no", false}};
-constexpr Word<Scheme> schemes[] = {{"auto", Scheme::automatic},
-                                    {"euler", Scheme::euler},
-                                    {"heun", Scheme::heun},
-                                    {"rk4", Scheme::rk4},
-                                    {"dopri5", Scheme::dopri5},
-                                    {"verner6", Scheme::verner6},
-                                    {"kencarp5", Scheme::kencarp5},
-                                    {"1", Scheme::euler},
-                                    {"2", Scheme::heun},
-                                    {"3", Scheme::rk4}};
 constexpr Word<EventRule> event_rules[] = {{"located", EventRule::located}, {"step", EventRule::step}};
 constexpr Word<Multirate> multirates[] = {{"auto", Multirate::automatic}, {"no", Multirate::no}};
 constexpr Word<Units> unit_systems[] = {{"cgs", Units::cgs}, {"real", Units::real}};
@@ -49,7 +40,14 @@ std::span<const Word<bool>> words_of(bool) {
   return yes_no;
 }
 std::span<const Word<Scheme>> words_of(Scheme) {
-  return schemes;
+  static const std::vector<Word<Scheme>> words = [] {
+    std::vector<Word<Scheme>> all;
+    for (const auto& s : schemes) all.push_back({s.word, s.scheme});
+    for (const auto& s : schemes)
+      if (!s.number.empty()) all.push_back({s.number, s.scheme});
+    return all;
+  }();
+  return words;
 }
 std::span<const Word<EventRule>> words_of(EventRule) {
   return event_rules;

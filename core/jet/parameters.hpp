@@ -2,6 +2,7 @@
 /// What a deck says, in the deck's units (CGS), before any scaling. One member a directive; the table of
 /// core/deck/deck.cpp binds each to its words, unit, meaning and check. An empty optional means "not given".
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -83,6 +84,18 @@ struct Parameters : CoulombSetting {
 inline double print_interval(const Parameters& p) {
   if (p.print_time) return *p.print_time;
   return p.timestep ? 1000 * *p.timestep : p.final_time / 100;
+}
+
+/// Signals and the clock are looked at between steps: samples within one must not take long.
+inline constexpr double most_samples_of_a_step = 1e5;
+
+/// The shortest interval of any output, s.
+inline double shortest_interval(const Parameters& p) {
+  double shortest = p.final_time;
+  if (!p.print_list.empty() || !p.printstat_list.empty()) shortest = std::min(shortest, print_interval(p));
+  for (const auto& interval : {p.print_xyz, p.print_hdf5})
+    if (interval) shortest = std::min(shortest, *interval);
+  return shortest;
 }
 
 }  // namespace treejet

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/jet/scales.hpp"
+#include "core/jet/schemes.hpp"
 
 namespace treejet {
 
@@ -51,7 +52,7 @@ Scheme chosen_scheme(const Parameters& p) {
 std::string choice_reason(const Parameters& p) {
   if (p.integrator != Scheme::automatic) return "";
   const Stiffness s = stiffness(p);
-  const bool stiff = chosen_scheme(p) == Scheme::kencarp5;
+  const bool stiff = properties(chosen_scheme(p)).implicit;
   return fmt::format(
       "{}: stability would bind an explicit scheme to {:.2g} steps a bead ({:.2g}/s, a bead in {:.2g} s)",
       stiff ? "stiff" : "not stiff", s.stable_steps(), s.fastest_rate, s.bead_interval);

@@ -1,6 +1,7 @@
 #include "core/observe/observables.hpp"
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <stdexcept>
@@ -10,10 +11,13 @@ namespace treejet {
 
 namespace {
 
-/// Component k of a bead quantity; a straight jet has x only.
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Component k of a quantity of the farthest bead; a straight jet has x only.
 template <int D>
 double component(const State<D>& y, int column, int k) {
-  return k < D && y.rows() > 0 ? y(0, column + k) : 0;
+  if (y.rows() == 0) return none;
+  return k < D ? y(0, column + k) : 0;
 }
 
 template <int D>
@@ -29,7 +33,7 @@ double rate(const View<D>& v, double amount) {
 
 template <int D>
 double per_arrival(const View<D>& v, double sum) {
-  return v.window.arrivals > 0 ? sum / v.window.arrivals : 0;
+  return v.window.arrivals > 0 ? sum / v.window.arrivals : none;
 }
 
 /// The time average of an integral over the window; at the start, before any window, its value now.

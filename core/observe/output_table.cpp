@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "core/deck/observable_keys.hpp"
@@ -11,10 +12,8 @@ namespace treejet {
 
 namespace {
 std::string label(const std::string& key) {
-  for (const auto& known : observable_keys) {
-    if (known.key == key) return fmt::format("{}[{}]", key, known.unit);
-  }
-  return key;
+  const ObservableKey* known = observable_key(key);
+  return known ? fmt::format("{}[{}]", key, known->unit) : key;
 }
 }  // namespace
 
@@ -49,7 +48,7 @@ void TerminalTable::row(const std::vector<double>& values) {
     for (const auto& key : keys_) text += fmt::format("{:>16}", label(key));
     text += "\n";
   }
-  for (double v : values) text += fmt::format("{:>16.8g}", v);
+  for (double v : values) text += std::isnan(v) ? fmt::format("{:>16}", "-") : fmt::format("{:>16.8g}", v);
   if (stderr_is_interactive()) fmt::print(stderr, "{}", clear_line);
   fmt::print("{}\n", text);
   std::fflush(stdout);

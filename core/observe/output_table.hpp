@@ -2,9 +2,9 @@
 /// The two tables of observables.
 ///
 /// statdat.dat: a first line `# key[unit] key[unit] ...`, lines `## ...` that tell what made the file, then
-/// one row a print time, numbers with 17 significant digits separated by blanks. Remarks on the rows that
-/// follow are lines that begin with `# `. The terminal table carries
-/// the same rows with fewer digits under a header of its own.
+/// one row a print time, numbers with 17 significant digits separated by blanks, `nan` where there is no
+/// value. Remarks on the rows that follow are lines that begin with `# `. The terminal table carries the same
+/// rows with fewer digits, and a dash for `nan`, under a header of its own.
 
 #include <string>
 #include <vector>

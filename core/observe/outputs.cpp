@@ -129,10 +129,10 @@ void Outputs<D>::contribute(const Parameters& p, const OutputSetting& setting,
                             const Decomposition<D>& decomposition) {
   if (decomposition.whole_here()) return;
   const Scales s = scales(p);
-  const auto contribution = [&](double interval) {
-    watch("", std::make_unique<Contribution<D>>(interval / s.time), decomposition);
+  const auto contribution = [&](double interval) -> Sampling<D>& {
+    return watch("", std::make_unique<Contribution<D>>(interval / s.time), decomposition);
   };
-  if (makes_rows(p, setting)) contribution(print_interval(p));
+  if (makes_rows(p, setting)) contribution(print_interval(p)).sample_early_end();
   if (p.print_xyz) contribution(*p.print_xyz);
   if (p.print_hdf5) contribution(*p.print_hdf5);
 }

@@ -2,18 +2,22 @@
 
 #include <fmt/format.h>
 
+#include "core/deck/observable_keys.hpp"
+
 namespace treejet {
 
 template <int D>
 Recorder<D>::Recorder(const Setting& setting)
-    : Sampling<D>(setting.interval), setting_(setting), statistics_(setting.nozzle, setting.collector) {}
+    : Sampling<D>(setting.interval), setting_(setting), statistics_(setting.nozzle, setting.collector) {
+  this->sample_early_end();
+}
 
 template <int D>
 void Recorder<D>::add(const std::vector<std::string>& keys, std::unique_ptr<RowSink> sink) {
   List list{{}, std::move(sink)};
   for (const auto& key : keys) {
     list.observables.push_back(observable<D>(key));
-    if (key == "lp" || key == "rlp") statistics_.follow_path();
+    if (has(key, along_path)) statistics_.follow_path();
   }
   lists_.push_back(std::move(list));
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// Rows of observables at every `print time`: the terminal table and statdat.dat.
+/// Rows of observables at every `print time`, and one where a run ends because all beads have left: the
+/// terminal table and statdat.dat.
 
 #include <chrono>
 #include <memory>

@@ -17,6 +17,9 @@ class Sampling : public Observer<D> {
   /// Of a jet in subdomains all ranks sample together: `sample` sees the whole jet on the first one.
   void sample_whole(const Decomposition<D>& decomposition) { decomposition_ = &decomposition; }
 
+  /// One more sample, between two asked times, where all beads have left and the run ends there.
+  void sample_early_end() { samples_early_end_ = true; }
+
   void start(const Jet<D>& jet) override {
     count_ = 0;
     take(jet, jet.t, jet.y);
@@ -31,7 +34,9 @@ class Sampling : public Observer<D> {
   }
 
   void finish(const Jet<D>& jet) override {
-    if (next() <= jet.t + slack()) take(jet, jet.t, jet.y);
+    const bool due = next() <= jet.t + slack(), open = jet.t > next() - interval_ + slack();
+    const bool early_end = samples_early_end_ && open && decomposition_->beads(jet) == 0;
+    if (due || early_end) take(jet, jet.t, jet.y);
   }
 
   void visit(Archive& state) override { state(count_); }
@@ -46,9 +51,8 @@ class Sampling : public Observer<D> {
   double interval() const { return interval_; }
 
  private:
-  double slack() const {
-    return 1e-9 * interval_;
-  }  ///< the asked times and the grid of the steps round differently
+  /// The asked times and the grid of the steps round differently.
+  double slack() const { return 1e-9 * interval_; }
 
   void take(const Jet<D>& jet, double t, const State<D>& y) {
     sample(decomposition_->whole(at(jet, t, y)));
@@ -56,6 +60,7 @@ class Sampling : public Observer<D> {
   }
 
   const Decomposition<D>* decomposition_ = &undivided<D>;
+  bool samples_early_end_ = false;
   double interval_;
   std::int64_t count_ = 0;
 };

@@ -1,9 +1,11 @@
 #pragma once
 /// What is summed up between two rows of output: the window behind the averaged observables of Appendix B.
 ///
-/// Counts and sums follow the events exactly; time averages are integrals of the dense output by the
-/// trapezoidal rule over the steps. A window without an arrival reports 0 for what is averaged over arrivals.
-/// All scaled.
+/// Counts and sums follow the events exactly. The path length is integrated over the dense output of each
+/// step by Gauss's rule with two points, whose error, O(h^5) a step, is far below that of the step. All
+/// scaled.
+
+#include <numbers>
 
 #include "core/jet/collector.hpp"
 #include "core/jet/dense_output.hpp"
@@ -53,7 +55,10 @@ class Statistics {
     integrated_to_ = t;
     if (!(dt > 0)) return;
     window_.release_speed += dt * last_release_speed_;
-    if (follows_path_) window_.path_length += dt / 2 * (path_at(segment, from) + path_at(segment, t));
+    if (!follows_path_) return;
+    const double middle = from + dt / 2, off_middle = dt / 2 / std::numbers::sqrt3;
+    for (const double at : {middle - off_middle, middle + off_middle})
+      window_.path_length += dt / 2 * path_length<D>(segment.at(at), nozzle_.position(at));
   }
 
   void event(EventKind kind, const Jet<D>& jet) {
@@ -78,7 +83,7 @@ class Statistics {
   /// Charge that has reached the collector, the part of the next bead on its way since the last arrival
   /// counted.
   double charge_landed(const Jet<D>& jet) const {
-    if (jet.removed == 0 || jet.size() == 0) return double(jet.removed);
+    if (jet.removed == 0 || jet.size() == 0) return charge_landed_;
     const double way = (jet.y(0, 0) - next_arrival_from_) / (collector_.distance() - next_arrival_from_);
     return charge_landed_ + way * jet.charge[0];
   }
@@ -88,10 +93,6 @@ class Statistics {
   }
 
  private:
-  double path_at(const DenseOutput<D>& segment, double t) const {
-    return path_length<D>(t == segment.begin() ? segment.first() : segment.at(t), nozzle_.position(t));
-  }
-
   void arrival(const Jet<D>& jet) {
     const bool alone = jet.size() == 1;
     const Vec<D> upper = alone ? nozzle_.position(jet.t) : position<D>(jet.y, 1);

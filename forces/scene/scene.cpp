@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/jet/schemes.hpp"
 #include "core/jet/stiffness.hpp"
 #include "forces/distributed/distributed_motion.hpp"
 #include "forces/scene/coulomb_settings.hpp"
@@ -96,15 +97,15 @@ class Composer {
 
   /// Two rates need an error to hold, and a sum over all pairs to take apart.
   bool multirate() {
-    const char* why_not = !p_.tolerance                           ? "a fixed timestep has no error to hold"
-                          : p_.multirate == Multirate::no         ? "multirate no"
-                          : p_.cutoff                             ? "cutoff"
-                          : chosen_scheme(p_) == Scheme::kencarp5 ? "a scheme that solves for the local terms"
-                          : g_.Q == 0                             ? "no Coulomb sum"
-                          : in_pieces()                           ? "parallel distributed"
-                          : stiffness(p_).relaxes_between_beads()
-                              ? "stress relaxes within the interval of beads"
-                              : nullptr;
+    const char* why_not =
+        !p_.tolerance                            ? "a fixed timestep has no error to hold"
+        : p_.multirate == Multirate::no          ? "multirate no"
+        : p_.cutoff                              ? "cutoff"
+        : properties(chosen_scheme(p_)).implicit ? "a scheme that solves for the local terms"
+        : g_.Q == 0                              ? "no Coulomb sum"
+        : in_pieces()                            ? "parallel distributed"
+        : stiffness(p_).relaxes_between_beads()  ? "stress relaxes within the interval of beads"
+                                                 : nullptr;
     note(!why_not, "two rates", "multirate auto", why_not);
     return !why_not;
   }

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/jet/jet.hpp"
@@ -50,9 +51,11 @@ class FixedStep final : public StepControl {
 
 class AdaptiveStep final : public StepControl {
  public:
-  AdaptiveStep(double first, int order) : h_(first), order_(order) {}
+  /// No step is longer than `longest`, whatever its error.
+  AdaptiveStep(double first, int order, double longest = std::numeric_limits<double>::infinity())
+      : h_(first), order_(order), longest_(longest) {}
 
-  double proposal(double t, double end) const override { return std::min(h_, end - t); }
+  double proposal(double t, double end) const override { return std::min({h_, longest_, end - t}); }
 
   bool accepts(double, double h, double error) override {
     const double k = order_;  // the estimate is of order k in h
@@ -96,6 +99,7 @@ class AdaptiveStep final : public StepControl {
 
   double h_;
   int order_;
+  double longest_;
   double previous_error_ = 1e-4;
   bool rejected_ = false;
   std::optional<EventKind> after_;    ///< an event, unless a step has been made since

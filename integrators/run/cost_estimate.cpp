@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/error.hpp"
 #include "core/io/frame.hpp"
 #include "core/jet/scales.hpp"
 #include "core/observe/progress.hpp"
@@ -74,13 +76,18 @@ double mean_since_arrival(const std::vector<TrialSample>& samples) {
   return sum / count;
 }
 
-/// An upper estimate of what a bead costs: the columns of its state for nodes, stages and continued fields.
+/// An upper estimate of what a bead costs: the columns of its state at both ends of a step, in the stages and
+/// in the history of fields.
 constexpr double bytes_a_bead = 4096;
 
 double memory_now() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return 1024.0 * double(usage.ru_maxrss);
+}
+
+double memory_of_machine() {
+  return double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
 }
 
 double samples_to(double end, double interval) {
@@ -93,6 +100,21 @@ std::string bytes_text(double bytes) {
 }
 
 }  // namespace
+
+void expect_feasible_trial(const Parameters& p) {
+  constexpr double most_pairs = 5e10, pairs_a_second = 1e9;  // of one core; a step has some ten evaluations
+  const double n = initial_elements(p), pairs = n * n, memory = memory_of_machine();
+  if (n * bytes_a_bead > memory)
+    throw InputError(
+        fmt::format("{:.3g} beads at the start need up to {}, this machine has {}: not tried out; "
+                    "expected fewer points or a larger resolution",
+                    n, bytes_text(n * bytes_a_bead), bytes_text(memory)));
+  if (p.coulomb == CoulombSum::direct && !p.cutoff && pairs > most_pairs)
+    throw InputError(
+        fmt::format("coulomb direct: one sum over {:.3g} beads is {:.2g} pairs, {} on one core: "
+                    "not tried out; did you mean coulomb auto?",
+                    n, pairs, duration_text(pairs / pairs_a_second)));
+}
 
 Plan plan(const Parameters& p, const Trial& trial, bool all_pairs) {
   const TrialSample &last = trial.samples.back(), &mid = middle(trial.samples);

@@ -56,6 +56,10 @@ struct PlannedFile {
   double bytes;
 };
 
+/// InputError, before anything is composed, if the beads of the deck do not fit into the memory of this
+/// machine or a step of the direct sum would take hours.
+void expect_feasible_trial(const Parameters& p);
+
 /// All pairs: whether each evaluation sums over them.
 Plan plan(const Parameters& p, const Trial& trial, bool all_pairs);
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/jet/scales.hpp"
-#include "integrators/schemes/scheme_registry.hpp"
 
 namespace treejet {
 
@@ -20,26 +19,24 @@ OutputSetting output_setting(OutputSetting outputs, const Checkpoint* resumed) {
 }  // namespace
 
 template <int D>
-Simulation<D>::Simulation(const Deck& deck, const Scene& scene, const Setting& setting)
+Simulation<D>::Simulation(const Deck& deck, const System<D>& system, const Setting& setting)
     : deck_(deck),
-      jet_(scene.jet),
-      holding_(scene.decomposition),
+      time_unit_(scales(deck.parameters).time),
+      jet_(system.jet),
+      decomposition_(system.decomposition),
       setting_{output_setting(setting.outputs, setting.resumed), setting.stop_request},
       checkpoints_(setting.outputs.elsewhere
                        ? std::nullopt
                        : std::optional<Checkpoints>({setting_.outputs.directory, setting_.outputs.existing})),
-      stepper_(stepper<D>(chosen_scheme(deck.parameters))),
-      control_(step_control(deck.parameters)),
-      outputs_(deck.parameters, scene.nozzle, scene.collector, setting_.outputs, scene.decomposition),
-      march_({scene.jet, scene.motion, *stepper_, *control_, scene.nozzle, scene.collector,
-              deck.parameters.events, ErrorNorm(deck.parameters), outputs_.observers(),
-              [this] { return stop_here(); }, scene.decomposition}) {
+      outputs_(deck.parameters, system.nozzle, system.collector, setting_.outputs, system.decomposition),
+      integration_(deck.parameters, system, outputs_.observers(), [this] { return stop_here(); }),
+      march_(integration_.march) {
   if (setting.resumed) visit(setting.resumed->state);
 }
 
 template <int D>
 bool Simulation<D>::finish() {
-  const bool arrived = march_.to(deck_.parameters.final_time / scales(deck_.parameters).time);
+  const bool arrived = march_.to(deck_.parameters.final_time / time_unit_);
   if (arrived && checkpoints_) checkpoints_->remove();
   return arrived;
 }
@@ -67,17 +64,20 @@ void Simulation<D>::visit(CheckpointParts& state) {
 
 template <int D>
 double Simulation<D>::t() const {
-  return march_.t() * scales(deck_.parameters).time;
+  return march_.t() * time_unit_;
 }
 
 template <int D>
 std::string Simulation<D>::summary() const {
   const Effort& e = march_.effort();
   const double seconds = std::chrono::duration<double>(Clock::now() - started_).count();
-  std::string text = fmt::format("done in {:.3g} s: {} beads on the jet, {} inserted, {} arrived\n", seconds,
-                                 holding_.beads(jet_) + jet_.held, e.placed, e.removed);
+  std::string text;
+  if (decomposition_.beads(jet_) == 0 && t() < deck_.parameters.final_time)
+    text = fmt::format("the jet has left at t = {:.10g} s: all beads have arrived, none is inserted\n", t());
+  text += fmt::format("done in {:.3g} s: {} beads on the jet, {} inserted, {} arrived\n", seconds,
+                      decomposition_.beads(jet_) + jet_.held, e.placed, e.removed);
   text += fmt::format(
-      "{} evaluations of the forces in {} steps ({} rejected, {} made anew for an event), {:.3g} us each\n",
+      "{} evaluations of the forces in {} steps ({} rejected, {} retaken for an event), {:.3g} us each\n",
       e.evaluations, e.steps, e.rejected, e.retaken, 1e6 * seconds / double(e.evaluations));
   for (const auto& line : outputs_.summary()) text += line + "\n";
   return text;

@@ -1,47 +1,37 @@
 #pragma once
-/// A simulation: the scheme, step control and outputs that a deck asks for, and the march of a composed scene
-/// through them to the deck's final time, with checkpoints on the way.
+/// A simulation: the integration of a composed scene to the deck's final time, with the outputs that the deck
+/// asks for and checkpoints on the way.
 ///
-/// Whether it is to be saved or stopped is asked between any two steps. A simulation stopped and resumed,
+/// Whether to save or to stop is asked between any two steps. A simulation stopped and resumed,
 /// however often, takes the same steps and leaves the same files, to the bit, as one that was left alone.
 
 #include <chrono>
 #include <functional>
-#include <memory>
 #include <string>
 
 #include "core/deck/deck.hpp"
 #include "core/observe/outputs.hpp"
 #include "core/restart/checkpoint.hpp"
 #include "core/restart/stop_request.hpp"
-#include "integrators/march/march.hpp"
+#include "integrators/run/integration.hpp"
 
 namespace treejet {
 
 template <int D>
 class Simulation {
  public:
-  /// What moves, and between which ends; it outlives the simulation.
-  struct Scene {
-    Jet<D>& jet;
-    RightHandSide<D>& motion;
-    const Nozzle<D>& nozzle;
-    const Collector& collector;
-    Decomposition<D>& decomposition = undivided<D>;
-  };
-
   struct Setting {
     OutputSetting outputs;
     std::function<StopRequest()> stop_request = [] {
       return StopRequest::go_on;
     };                              ///< asked between any two steps
-    Checkpoint* resumed = nullptr;  ///< of the same deck, to go on from; null for a new run
+    Checkpoint* resumed = nullptr;  ///< of the same deck, to continue; null for a new run
   };
 
-  /// Opens the files; FileError if one exists already or cannot be made, or cannot be gone on with.
-  Simulation(const Deck& deck, const Scene& scene, const Setting& setting);
+  /// Opens the files; FileError if one exists already or cannot be made, or cannot be continued.
+  Simulation(const Deck& deck, const System<D>& system, const Setting& setting);
 
-  /// On to the final time. False if stopped before, with a checkpoint.
+  /// On to the final time, or until all beads have left. False if stopped before, with a checkpoint.
   bool finish();
 
   double t() const;  ///< s
@@ -54,14 +44,14 @@ class Simulation {
   void visit(CheckpointParts& state);
 
   const Deck& deck_;
+  double time_unit_;  ///< s
   const Jet<D>& jet_;
-  const Decomposition<D>& holding_;
+  const Decomposition<D>& decomposition_;
   Setting setting_;
   std::optional<Checkpoints> checkpoints_;  ///< none if another process makes the outputs
-  std::unique_ptr<Stepper<D>> stepper_;
-  std::unique_ptr<StepControl> control_;
   Outputs<D> outputs_;
-  March<D> march_;
+  Integration<D> integration_;
+  March<D>& march_;
   using Clock = std::chrono::steady_clock;
   Clock::time_point started_ = Clock::now();  ///< as if never stopped
 };

@@ -1,7 +1,8 @@
 #include "integrators/run/trial_run.hpp"
 
+#include <chrono>
+
 #include "core/jet/scales.hpp"
-#include "integrators/schemes/scheme_registry.hpp"
 
 namespace treejet {
 
@@ -37,17 +38,15 @@ class Onlooker final : public Observer<D> {
 }  // namespace
 
 template <int D>
-Trial trial_run(const Parameters& p, const typename Simulation<D>::Scene& scene, double seconds) {
+Trial trial_run(const Parameters& p, const System<D>& system, double seconds) {
   using Clock = std::chrono::steady_clock;
   constexpr int samples = 64;
   const auto started = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - started).count(); };
-  const auto steps = stepper<D>(chosen_scheme(p));
-  const auto control = step_control(p);
   Onlooker<D> onlooker;
   Trial trial;
   trial.samples.resize(1);
-  trial.samples[0].beads = scene.jet.size();
+  trial.samples[0].beads = system.jet.size();
   const March<D>* watched = nullptr;
   const auto stop_here = [&] {
     const double now = elapsed();
@@ -55,24 +54,15 @@ Trial trial_run(const Parameters& p, const typename Simulation<D>::Scene& scene,
       trial.samples.push_back(onlooker.sample(now, watched->effort()));
     return now >= seconds;
   };
-  March<D> march({scene.jet,
-                  scene.motion,
-                  *steps,
-                  *control,
-                  scene.nozzle,
-                  scene.collector,
-                  p.events,
-                  ErrorNorm(p),
-                  {&onlooker},
-                  stop_here,
-                  scene.decomposition});
+  Integration<D> integration(p, system, {&onlooker}, stop_here);
+  March<D>& march = integration.march;
   watched = &march;
   trial.complete = march.to(p.final_time / scales(p).time);
   trial.samples.push_back(onlooker.sample(elapsed(), march.effort()));
   return trial;
 }
 
-template Trial trial_run<1>(const Parameters&, const Simulation<1>::Scene&, double);
-template Trial trial_run<3>(const Parameters&, const Simulation<3>::Scene&, double);
+template Trial trial_run<1>(const Parameters&, const System<1>&, double);
+template Trial trial_run<3>(const Parameters&, const System<3>&, double);
 
 }  // namespace treejet

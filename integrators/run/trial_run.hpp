@@ -1,13 +1,14 @@
 #pragma once
-/// A run for a second or so, without files: what a plan (integrators/run/cost_estimate.hpp) is made from.
+/// A run for a second or so, without files: what a cost estimate (integrators/run/cost_estimate.hpp) is made
+/// from.
 
 #include "integrators/run/cost_estimate.hpp"
-#include "integrators/run/simulation.hpp"
+#include "integrators/run/integration.hpp"
 
 namespace treejet {
 
-/// Moves the scene on, until the seconds of wall-clock time are over or the deck's final time is reached.
+/// Moves the system until the seconds of wall-clock time are over or the deck's final time is reached.
 template <int D>
-Trial trial_run(const Parameters& p, const typename Simulation<D>::Scene& scene, double seconds);
+Trial trial_run(const Parameters& p, const System<D>& system, double seconds);
 
 }  // namespace treejet

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "core/jet/scales.hpp"
 #include "integrators/schemes/additive.hpp"
@@ -13,44 +14,32 @@
 
 namespace treejet {
 
-const char* name(Scheme scheme) {
-  switch (scheme) {
-    case Scheme::automatic:
-      return "auto";
-    case Scheme::euler:
-      return "Euler";
-    case Scheme::heun:
-      return "Heun";
-    case Scheme::rk4:
-      return "Runge-Kutta 4";
-    case Scheme::dopri5:
-      return "Dormand-Prince 5(4)";
-    case Scheme::verner6:
-      return "Verner 6(5)";
-    case Scheme::kencarp5:
-      return "Kennedy-Carpenter 5(4), local terms implicit";
-  }
-  return "";
+namespace {
+
+template <int D>
+using Maker = std::unique_ptr<Stepper<D>> (*)();
+
+template <int D, class S>
+std::unique_ptr<Stepper<D>> make() {
+  return std::make_unique<S>();
 }
 
 template <int D>
+constexpr std::pair<Scheme, Maker<D>> makers[] = {
+    {Scheme::euler, make<D, Euler<D>>},
+    {Scheme::heun, make<D, Heun<D>>},
+    {Scheme::rk4, make<D, RungeKutta4<D>>},
+    {Scheme::dopri5, make<D, EmbeddedRungeKutta<D, DormandPrince5>>},
+    {Scheme::verner6, make<D, EmbeddedRungeKutta<D, Verner6>>},
+    {Scheme::kencarp5, make<D, AdditiveRungeKutta<D, KennedyCarpenter5>>},
+};
+
+}  // namespace
+
+template <int D>
 std::unique_ptr<Stepper<D>> stepper(Scheme scheme) {
-  switch (scheme) {
-    case Scheme::euler:
-      return std::make_unique<Euler<D>>();
-    case Scheme::heun:
-      return std::make_unique<Heun<D>>();
-    case Scheme::rk4:
-      return std::make_unique<RungeKutta4<D>>();
-    case Scheme::dopri5:
-      return std::make_unique<EmbeddedRungeKutta<D, DormandPrince5>>();
-    case Scheme::verner6:
-      return std::make_unique<EmbeddedRungeKutta<D, Verner6>>();
-    case Scheme::kencarp5:
-      return std::make_unique<AdditiveRungeKutta<D, KennedyCarpenter5>>();
-    case Scheme::automatic:
-      break;
-  }
+  for (const auto& [of, maker] : makers<D>)
+    if (of == scheme) return maker();
   throw std::logic_error("no scheme chosen");
 }
 
@@ -61,7 +50,8 @@ std::unique_ptr<StepControl> step_control(const Parameters& p) {
   const double time = scales(p).time;
   if (p.timestep) return std::make_unique<FixedStep>(*p.timestep / time);
   constexpr double first = 1e-4;  // of tau; the control finds its pace within a few steps
-  return std::make_unique<AdaptiveStep>(first, chosen_scheme(p) == Scheme::verner6 ? 6 : 5);
+  return std::make_unique<AdaptiveStep>(first, properties(chosen_scheme(p)).order,
+                                        most_samples_of_a_step * shortest_interval(p) / time);
 }
 
 std::string steps_description(const Parameters& p) {

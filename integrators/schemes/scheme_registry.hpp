@@ -1,18 +1,18 @@
 #pragma once
-/// The scheme and the step control that a deck asks for.
+/// What makes the schemes of core/jet/schemes.hpp, and the step control and words that go with a deck's.
 
 #include <memory>
 #include <string>
 
 #include "core/jet/parameters.hpp"
+#include "core/jet/schemes.hpp"
 #include "core/jet/stiffness.hpp"
 #include "integrators/march/step_control.hpp"
 #include "integrators/schemes/stepper.hpp"
 
 namespace treejet {
 
-const char* name(Scheme scheme);
-
+/// std::logic_error for `automatic`, which is no scheme before one is chosen.
 template <int D>
 std::unique_ptr<Stepper<D>> stepper(Scheme scheme);
 

@@ -6,8 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/observe/outputs.hpp"
-#include "forces/scene/scene.hpp"
-#include "integrators/schemes/scheme_registry.hpp"
+#include "integrators/run/integration.hpp"
 
 namespace treejet {
 
@@ -81,14 +80,12 @@ Outcome run(const Parameters& p, const Setup& setup) {
   const auto files = outputs<D>(p, scene, setup);
   auto observers = files ? files->observers() : std::vector<Observer<D>*>{};
   observers.push_back(&clock);
-  const auto scheme = stepper<D>(chosen_scheme(p));
-  const auto control = step_control(p);
-  March<D> march({scene.jet, motion, *scheme, *control, scene.nozzle, scene.collector, p.events, ErrorNorm(p),
-                  observers});
+  Integration<D> integration(p, system(scene, motion), observers);
+  const double time_unit = scales(p).time, length_unit = scales(p).length;
   Outcome o;
   const double started = processor_seconds();
   try {
-    march.to(p.final_time / scales(p).time);
+    integration.march.to(p.final_time / time_unit);
   } catch (const Error& e) {
     o.exit_code = e.exit_code();
     o.message = e.what();
@@ -97,11 +94,11 @@ Outcome run(const Parameters& p, const Setup& setup) {
     o.message = e.what();
   }
   o.seconds = processor_seconds() - started;
-  o.t = clock.t * scales(p).time;
+  o.t = clock.t * time_unit;
   o.removed = scene.jet.removed;
-  o.effort = march.effort();
+  o.effort = integration.march.effort();
   o.position.setZero(scene.jet.size(), 3);
-  o.position.leftCols(D) = scene.jet.y.template leftCols<D>() * scales(p).length;
+  o.position.leftCols(D) = scene.jet.y.template leftCols<D>() * length_unit;
   return o;
 }
 

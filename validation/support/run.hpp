@@ -8,8 +8,7 @@
 #include "core/observe/recorder.hpp"
 #include "core/observe/sampling.hpp"
 #include "forces/scene/scene.hpp"
-#include "integrators/march/march.hpp"
-#include "integrators/schemes/scheme_registry.hpp"
+#include "integrators/run/integration.hpp"
 #include "validation/support/example.hpp"
 
 namespace treejet {
@@ -38,21 +37,9 @@ struct Run {
 
   /// On to t seconds.
   Effort to(double seconds, std::vector<Observer<D>*> observers = {}) {
-    const auto scheme = stepper<D>(chosen_scheme(parameters));
-    const auto control = step_control(parameters);
-    March<D> march({scene.jet,
-                    scene.right_hand_side(),
-                    *scheme,
-                    *control,
-                    scene.nozzle,
-                    scene.collector,
-                    parameters.events,
-                    ErrorNorm(parameters),
-                    std::move(observers),
-                    {},
-                    scene.decomposition()});
-    march.to(seconds / unit.time);
-    return march.effort();
+    Integration<D> integration(parameters, system(scene), std::move(observers));
+    integration.march.to(seconds / unit.time);
+    return integration.march.effort();
   }
 
   const Jet<D>& jet() const { return scene.jet; }

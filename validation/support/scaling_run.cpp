@@ -6,8 +6,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "forces/scene/scene.hpp"
-#include "integrators/schemes/scheme_registry.hpp"
+#include "integrators/run/integration.hpp"
 #include "validation/support/experiment.hpp"
 
 namespace treejet {
@@ -28,19 +27,7 @@ Vec<3> between(const State<3>& y, int first_column, Eigen::Index a, double part,
 }
 
 void march(const Parameters& p, Scene<3>& scene, RightHandSide<3>& motion, double until) {
-  const auto scheme = stepper<3>(chosen_scheme(p));
-  const auto control = step_control(p);
-  March<3>({.jet = scene.jet,
-            .motion = motion,
-            .stepper = *scheme,
-            .control = *control,
-            .nozzle = scene.nozzle,
-            .collector = scene.collector,
-            .events = p.events,
-            .norm = ErrorNorm(p),
-            .observers = {},
-            .decomposition = scene.decomposition()})
-      .to(until / scales(p).time);
+  Integration<3>(p, system(scene, motion)).march.to(until / scales(p).time);
 }
 
 /// The same jet with each element cut in `pieces`. The unit of length goes with l_step, those of time and

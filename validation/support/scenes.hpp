@@ -7,8 +7,7 @@
 
 #include "forces/terms/constitutive.hpp"
 #include "forces/terms/equations_of_motion.hpp"
-#include "integrators/march/march.hpp"
-#include "integrators/schemes/scheme_registry.hpp"
+#include "integrators/run/integration.hpp"
 
 namespace treejet {
 
@@ -49,15 +48,16 @@ State<D> slope(EquationsOfMotion<D>& f, const Jet<D>& jet) {
   return dy;
 }
 
-/// Marches a jet of such a scene to scaled time `end` in steps of dt.
+/// Marches a jet of such a scene to scaled time `end` in scaled steps of dt.
 template <int D>
 void march_to(double end, double dt, Jet<D>& jet, EquationsOfMotion<D>& f, const Parameters& p,
               Scheme scheme) {
-  const auto steps = stepper<D>(scheme);
-  FixedStep control(dt);
+  Parameters stepped = p;
+  stepped.integrator = scheme;
+  stepped.timestep = dt * scales(p).time;
   const Nozzle<D> nozzle(p);
   const Collector collector(p);
-  March<D>({jet, f, *steps, control, nozzle, collector, p.events, ErrorNorm(p), {}}).to(end);
+  Integration<D>(stepped, {jet, f, nozzle, collector}).march.to(end);
 }
 
 }  // namespace treejet

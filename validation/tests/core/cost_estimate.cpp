@@ -27,6 +27,18 @@ Trial trial(const std::vector<TrialSample>& samples) {
 
 }  // namespace
 
+TEST_CASE("A trial that could not end, or would not fit into memory, is refused before anything is made") {
+  const auto beads = [](const char* points, const char* sum) { return example("pvp", {points, sum}); };
+  CHECK_NOTHROW(expect_feasible_trial(beads("points 100000", "coulomb direct")));
+  CHECK_NOTHROW(expect_feasible_trial(beads("points 1000000", "coulomb auto")));
+  CHECK_THROWS_WITH(expect_feasible_trial(beads("points 1000000", "coulomb direct")),
+                    Catch::Contains("1e+12 pairs") && Catch::Contains("did you mean coulomb auto?"));
+  CHECK_NOTHROW(expect_feasible_trial(example("pvp", {"points 1000000", "cutoff 0.1"})));
+  // 4 kB a bead: 410 GB
+  CHECK_THROWS_WITH(expect_feasible_trial(beads("points 100000000", "coulomb auto")),
+                    Catch::Contains("1e+08 beads at the start need up to 410 GB"));
+}
+
 TEST_CASE("A plan is a trial's rates carried on to the end, also if the machine stalled in the trial") {
   const Parameters p = example("pvp");
   const double end = p.final_time / scales(p).time;

@@ -59,6 +59,34 @@ TEST_CASE("The schemes have the orders 1, 2, 4, 5, 6 and 5 that they are known b
   CHECK(nominal(Scheme::kencarp5) == 5);
 }
 
+TEST_CASE("What the table of schemes says of a scheme is what its stepper does") {
+  for (const auto& row : schemes) {
+    CAPTURE(row.word);
+    CHECK(steps.contains(row.scheme) == (row.scheme != Scheme::automatic));  // all orders are measured below
+    if (row.scheme == Scheme::automatic) continue;
+    Run<3> run = pushed_aside(example("single-bead"));
+    SolutionPoint<3> from{0, run.jet().y, {}};
+    (*run.scene.motion)(run.jet(), 0, from.y, from.slope);
+    const auto scheme = stepper<3>(row.scheme);
+    State<3> next;
+    scheme->step(*run.scene.motion, run.jet(), from, 0.01, next);
+    CHECK(scheme->order() == row.order);
+    CHECK((scheme->error.rows() > 0) == row.adaptive);
+  }
+}
+
+TEST_CASE("The control of a pair takes the estimate for what it is, of the order of the pair") {
+  for (const auto& row : schemes) {
+    if (!row.adaptive || row.scheme == Scheme::automatic) continue;
+    CAPTURE(row.word);
+    const auto control = step_control(with_tolerance(example("pvp"), 1e-6, row.scheme));
+    const double h = control->proposal(0, 1);
+    // an error of 2^order would be one at half the step, but for the safety factor 0.9
+    REQUIRE(!control->accepts(0, h, std::pow(2, row.order)));
+    CHECK(control->proposal(0, 1) == Approx(0.9 * h / 2).epsilon(1e-14));
+  }
+}
+
 TEST_CASE("Each scheme shows its order on the straight bead of paper case 1") {
   for (const auto& [scheme, h] : steps) {
     const auto e = errors([](const Parameters& p) { return Run<1>(p); }, scheme, h);

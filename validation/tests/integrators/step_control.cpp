@@ -41,7 +41,17 @@ TEST_CASE("The first step after an event is the one that the last event of its k
   CHECK(control.proposal(0, 1) == Approx(allowed).epsilon(1e-14));
 }
 
-TEST_CASE("Where the jet inserts and loses beads in a rhythm hardly any step is rejected or made anew") {
+TEST_CASE("No step is so long that its samples keep the run from looking at signals and the clock") {
+  Parameters p = with_tolerance(example("pvp"), 1e-6);
+  p.print_xyz = 1e-13;  // steps of case 3 are some 1e-5 s long: 1e8 samples each
+  const double longest = most_samples_of_a_step * 1e-13 / scales(p).time;
+  const auto control = step_control(p);
+  CHECK(control->proposal(0, 1) == Approx(longest).epsilon(1e-14));
+  REQUIRE(control->accepts(0, longest, 1e-9));
+  CHECK(control->proposal(0, 1) == Approx(longest).epsilon(1e-14));
+}
+
+TEST_CASE("Where the jet inserts and loses beads in a rhythm hardly any step is rejected or retaken") {
   for (double tolerance : {1e-5, 1e-6, 1e-8}) {
     Run<3> run(with_tolerance(example("pvp"), tolerance));
     const Effort e = run.to(0.03);

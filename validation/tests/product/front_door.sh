@@ -144,7 +144,7 @@ is "exit code with a file removed" $? 4
 grep -q 'removed/traj.xyz: was removed' err || fail "the message does not name the file removed: $(cat err)"
 
 # steps a thousand times too large
-expect 3 "a numerical failure" "$treejet" run "$pvp" --out stopped --quiet --set "integrator 2" --set "timestep 1.d-3" --set "final time 5.d-2" --set "print time 1.d-3"
+expect 3 "a numerical failure" "$treejet" run "$pvp" --out stopped --quiet --set "integrator 2" --set "timestep 1.d-3" --set "final time 5.d-2" --set "print time 1.d-3" --set "printstat list t x yz n vn"
 grep -q 'bead' err && grep -q 'time' err && grep -q 'likely cause' err || fail "the message names no bead, time or cause: $(cat err)"
 [ "$(grep -vc '^#' stopped/statdat.dat)" -ge 1 ] || fail "rows before a numerical failure were lost"
 grep -qi nan stopped/statdat.dat && fail "statdat.dat holds NaN"
@@ -187,6 +187,12 @@ for file in h5/traj.h5 h5/statdat.dat h5/run.json; do
   "$treejet" info $file | grep -q 'print hdf5 1.d-4' || fail "$file does not tell the overrides"
 done
 expect 4 "info of a foreign file" "$treejet" info "$source/README.md"
+
+# Five beads without successors: all arrive, and the run says when.
+expect 0 "a run whose beads all leave" "$treejet" run "$pvp" --out left --set "inserting no" --set "points 5" --set "initial length 0.1" --set "final time 0.05" --set "print time 5.d-3" --set "printstat list t n chc q" --set "print list t vc"
+grep -q '^the jet has left at t = 0.0182' out || fail "the summary does not tell that the jet has left: $(cat out)"
+grep -q '^ *0 *-$' out || fail "the terminal shows no dash for a window without arrivals"
+is "beads in all rows together" "$(awk '!/^#/ {sum += $3; if ($4 > q) q = $4} END {print sum / q}' left/statdat.dat)" 5
 
 expect 0 "check" "$treejet" check "$pvp"
 grep -q 'surface tension' out || fail "check does not tell what is composed"

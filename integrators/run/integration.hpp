@@ -1,0 +1,63 @@
+#pragma once
+/// An integration: a system of beads marched by the scheme, step control and error norm that the parameters
+/// ask for. Program, trial run and harness all step through here; a march is put together nowhere else.
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "forces/scene/scene.hpp"
+#include "integrators/march/march.hpp"
+#include "integrators/schemes/scheme_registry.hpp"
+
+namespace treejet {
+
+/// What moves, and between which ends; it outlives the integration.
+template <int D>
+struct System {
+  Jet<D>& jet;
+  RightHandSide<D>& right_hand_side;
+  const Nozzle<D>& nozzle;
+  const Collector& collector;
+  Decomposition<D>& decomposition = undivided<D>;
+};
+
+template <int D>
+System<D> system(Scene<D>& scene, RightHandSide<D>& right_hand_side) {
+  return {scene.jet, right_hand_side, scene.nozzle, scene.collector, scene.decomposition()};
+}
+
+template <int D>
+System<D> system(Scene<D>& scene) {
+  return system(scene, scene.right_hand_side());
+}
+
+template <int D>
+class Integration {
+ public:
+  /// `stop_here` is asked between any two steps.
+  Integration(const Parameters& p, const System<D>& system, std::vector<Observer<D>*> observers = {},
+              std::function<bool()> stop_here = {})
+      : stepper_(stepper<D>(chosen_scheme(p))),
+        control_(step_control(p)),
+        march({.jet = system.jet,
+               .motion = system.right_hand_side,
+               .stepper = *stepper_,
+               .control = *control_,
+               .nozzle = system.nozzle,
+               .collector = system.collector,
+               .events = p.events,
+               .norm = ErrorNorm(p),
+               .observers = std::move(observers),
+               .stop_here = std::move(stop_here),
+               .decomposition = system.decomposition}) {}
+
+ private:
+  std::unique_ptr<Stepper<D>> stepper_;
+  std::unique_ptr<StepControl> control_;
+
+ public:
+  March<D> march;
+};
+
+}  // namespace treejet

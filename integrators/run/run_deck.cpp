@@ -1,0 +1,112 @@
+#include "integrators/run/run_deck.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "core/base/error.hpp"
+#include "core/deck/deck.hpp"
+#include "core/io/provenance.hpp"
+#include "core/restart/resume.hpp"
+#include "forces/coulomb/coulomb.hpp"
+#include "forces/scene/scene_description.hpp"
+#include "integrators/run/simulation.hpp"
+
+namespace treejet {
+
+namespace {
+
+/// "2 ranks, 4 threads each".
+std::string workers_description(const Ranks& ranks, Threads threads) {
+  if (ranks.size() == 1) return threads_description(threads);
+  return fmt::format("{} ranks, each with {}", ranks.size(), threads_description(threads));
+}
+
+/// Ranks see signals at different steps and have clocks of their own: the clock of the first one counts, and
+/// all follow the strongest request. A jet in pieces writes no checkpoint and is stopped by none.
+class StopVote {
+ public:
+  StopVote(const Parameters& p, const Arguments& a, const Ranks& ranks) : ranks_(ranks) {
+    if (p.parallel == ParallelData::replicated)
+      signals_.emplace(ranks.first() ? StopSignals::Setting{p.checkpoint, a.walltime}
+                                     : StopSignals::Setting{});
+    else if (a.walltime)
+      throw InputError("--walltime needs a checkpoint, and parallel distributed writes none");
+  }
+
+  StopRequest operator()() {
+    return signals_ ? StopRequest{ranks_.greatest(static_cast<int>(signals_->stop_request()))}
+                    : StopRequest::go_on;
+  }
+  std::string reason() const { return signals_ ? signals_->reason() : ""; }
+
+ private:
+  const Ranks& ranks_;
+  std::optional<StopSignals> signals_;
+};
+
+template <int D>
+int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* checkpoint) {
+  const Provenance made_by = provenance(deck, isa_name());
+  ranks.require_same(program(made_by), deck_description(deck.name, deck.text, deck.overrides));
+  const Parameters& p = deck.parameters;
+  const Threads each = threads(a, ranks);
+  const std::string directory = checkpoint ? a.resume : a.out;
+  StopVote stop(p, a, ranks);
+  Scene<D> scene = compose<D>(p, each, ranks);
+  const OutputSetting outputs{directory,          existing(a), a.quiet,
+                              !ranks.first(),     made_by,     {ranks.size(), each.count},
+                              scene.force_error()};
+  Simulation<D> simulation(deck, system(scene), {outputs, [&stop] { return stop(); }, checkpoint});
+  if (!a.quiet) {
+    fmt::print("{}\n{}\n{}{}", program(made_by), deck.name, notes(deck),
+               composition(scene.composed, scene.left_out));
+    fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p),
+               workers_description(ranks, each));
+  }
+  const auto started = std::chrono::steady_clock::now();
+  if (!simulation.finish()) {
+    ranks.greatest(stopped_early);  // no rank ends before the first one has written the checkpoint
+    if (ranks.first())
+      fmt::print(stderr, "treejet: stopped at t = {:.6g} s by {}; to go on: treejet run --resume {}\n",
+                 simulation.t(), stop.reason(), for_shell(directory));
+    return stopped_early;
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  if (!a.quiet) fmt::print("\n{}{}", simulation.summary(), times_description(ranks.times(), seconds));
+  return 0;
+}
+
+int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* checkpoint = nullptr) {
+  const bool straight = deck.parameters.system == 1;
+  return straight ? run<1>(deck, a, ranks, checkpoint) : run<3>(deck, a, ranks, checkpoint);
+}
+
+}  // namespace
+
+std::string version_text() {
+  return program(provenance({}, isa_name()));
+}
+
+Threads threads(const Arguments& a, const Ranks& ranks) {
+  const Threads threads{a.threads > 0 ? a.threads : ranks.threads_each()};
+  const std::string crowding = ranks.crowding(threads);
+  if (!crowding.empty()) fmt::print(stderr, "treejet: warning: {}\n", crowding);
+  return threads;
+}
+
+OutputFile::Existing existing(const Arguments& a) {
+  return a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
+}
+
+int run_deck(const Arguments& a, const Ranks& ranks) {
+  if (a.resume.empty()) return run(read_deck(a.deck, a.overrides), a, ranks);
+  Resumption stopped = resumption(a.resume, version_text());
+  if (ranks.first())
+    for (const auto& w : stopped.warnings) fmt::print(stderr, "treejet: warning: {}\n", w);
+  if (!a.deck.empty()) expect_same(read_deck(a.deck, a.overrides), stopped.deck);
+  return run(stopped.deck, a, ranks, &stopped.checkpoint);
+}
+
+}  // namespace treejet
