@@ -1,7 +1,7 @@
 #pragma once
 /// The table of schemes: what a deck calls each one and what the program has to know about it. Messages,
 /// documentation, step control and the choice of forces read it; what makes a scheme stands in
-/// integrators/schemes/scheme_registry.cpp.
+/// integrators/run/scheme_registry.cpp.
 
 #include <array>
 #include <string>

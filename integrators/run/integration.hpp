@@ -8,7 +8,7 @@
 
 #include "forces/scene/scene.hpp"
 #include "integrators/march/march.hpp"
-#include "integrators/schemes/scheme_registry.hpp"
+#include "integrators/run/scheme_registry.hpp"
 
 namespace treejet {
 

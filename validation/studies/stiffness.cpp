@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/jet/scales.hpp"
-#include "integrators/schemes/scheme_registry.hpp"
+#include "integrators/run/scheme_registry.hpp"
 #include "validation/support/experiment.hpp"
 #include "validation/support/studies.hpp"
 

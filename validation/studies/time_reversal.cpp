@@ -5,7 +5,7 @@
 
 #include "core/jet/scales.hpp"
 #include "forces/scene/scene.hpp"
-#include "integrators/schemes/scheme_registry.hpp"
+#include "integrators/run/scheme_registry.hpp"
 #include "validation/support/experiment.hpp"
 #include "validation/support/studies.hpp"
 

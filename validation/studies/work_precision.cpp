@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "forces/multirate/history.hpp"
-#include "integrators/schemes/scheme_registry.hpp"
+#include "integrators/run/scheme_registry.hpp"
 #include "validation/support/experiment.hpp"
 #include "validation/support/studies.hpp"
 

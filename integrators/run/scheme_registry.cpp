@@ -1,4 +1,4 @@
-#include "integrators/schemes/scheme_registry.hpp"
+#include "integrators/run/scheme_registry.hpp"
 
 #include <fmt/format.h>
 
