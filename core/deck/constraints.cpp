@@ -28,6 +28,7 @@ class Relations {
     initial_jet();
     perturbation();
     coulomb_sum();
+    self_field();
     fluid();
     output();
     pieces();
@@ -102,6 +103,25 @@ class Relations {
       note(!tree && is_given(detail), detail, "no effect without coulomb tree or coulomb auto");
   }
 
+  void self_field() {
+    if (p_.self_field == SelfField::point) return;
+    error(p_.cutoff.has_value(), {"self field", "cutoff"},
+          "expected no cutoff: the field of a tube on itself is completed by that of all its charges");
+    note(p_.density_charge == 0, "self field", "no effect: density charge is 0");
+    note(p_.inserting, "self field",
+         "the paper's rule of insertion lets its rate follow from the push of the nozzle's charge on the "
+         "first "
+         "bead: with slender it depends on the length of the elements more, not less");
+    if (!sound("initial length") || (!is_given("points") && !is_given("resolution"))) return;
+    const double l_step =
+        is_given("points") ? p_.initial_length / p_.points.value_or(1) : p_.resolution.value_or(0);
+    note(l_step < 2 * p_.nozzle_cross * (1 - round_off), "self field",
+         fmt::format(
+             "elements ({:.6g} cm) are shorter than twice nozzle cross ({} cm): too short for a slender "
+             "tube, its self-field is limited",
+             l_step, p_.nozzle_cross));
+  }
+
   void perturbation() {
     error(p_.perturb && p_.system == 1, {"perturb", "system"},
           "expected no in system 1: a straight jet does not circle");
@@ -111,7 +131,10 @@ class Relations {
           fmt::format("expected at most initial length ({} cm)", p_.initial_length));
     for (const char* detail : {"perturb freq", "perturb ampl"})
       note(!p_.perturb && is_given(detail), detail, "no effect without perturb yes");
-    note(p_.system == 1 && p_.surface_tension > 0, "surface tension", "no effect in system 1");
+    const bool of_paper = p_.surface_model == SurfaceModel::paper;
+    note(p_.system == 1 && p_.surface_tension > 0 && of_paper, "surface tension",
+         "no effect in system 1 without surface tension model energy");
+    note(!of_paper && p_.surface_tension == 0, "surface tension model", "no effect: surface tension is 0");
   }
 
   void fluid() {

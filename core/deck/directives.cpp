@@ -68,7 +68,10 @@ const Directive table[] = {
      .meaning = "elastic modulus; viscosity / elastic modulus is the relaxation time", .mandatory = true,
      .example = "50000."},
     {.words = "surface tension", .member = &P::surface_tension, .unit = "g/s^2", .check = not_negative,
-     .meaning = "surface tension; no effect in system 1", .example = "21.13"},
+     .meaning = "surface tension; that of the paper has no effect in system 1", .example = "21.13"},
+    {.words = "surface tension model", .member = &P::surface_model,
+     .meaning = "the paper's force on bends, too weak by element length over radius (paper), or the tension that "
+                "follows from the energy of the surface (energy)"},
     {.words = "yield stress", .member = &P::yield_stress, .unit = "g/(cm s^2)", .check = not_negative,
      .meaning = "yield stress, added to the viscous stress; acts without hbfluid yes, too"},
     {.words = "hbfluid", .member = &P::hbfluid,
@@ -103,6 +106,10 @@ const Directive table[] = {
     {.words = "gravity", .member = &P::gravity, .meaning = "gravity along x", .example = "yes"},
     {.words = "cutoff", .member = &P::cutoff, .unit = "cm", .check = positive,
      .meaning = "reach of the Coulomb force along the jet, measured at the nozzle", .absent = "the full sum"},
+
+    {.words = "self field", .member = &P::self_field,
+     .meaning = "field of an element on itself: none, beads are point charges (point), or that of a thin charged tube "
+                "(slender), with which the force on a bend does not depend on the length of the elements"},
 
     {.words = "coulomb", .member = &P::coulomb,
      .meaning = "Coulomb sum: direct over all pairs; by a tree to the accuracy below; auto: whichever is faster",

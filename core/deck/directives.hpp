@@ -29,7 +29,7 @@ using Member =
                  std::optional<int> Parameters::*, bool Parameters::*, std::vector<std::string> Parameters::*,
                  Scheme Parameters::*, EventRule Parameters::*, Multirate Parameters::*, Units Parameters::*,
                  CoulombSum Parameters::*, TreeOrder Parameters::*, ExpansionKind Parameters::*,
-                 ParallelData Parameters::*, Ignored>;
+                 ParallelData Parameters::*, SelfField Parameters::*, SurfaceModel Parameters::*, Ignored>;
 
 struct Directive {
   std::string_view words;

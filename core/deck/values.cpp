@@ -35,6 +35,9 @@ constexpr Word<TreeOrder> tree_orders[] = {
 constexpr Word<ExpansionKind> expansions[] = {{"local", ExpansionKind::local}, {"none", ExpansionKind::none}};
 constexpr Word<ParallelData> parallel_data[] = {{"replicated", ParallelData::replicated},
                                                 {"distributed", ParallelData::distributed}};
+constexpr Word<SelfField> self_fields[] = {{"point", SelfField::point}, {"slender", SelfField::slender}};
+constexpr Word<SurfaceModel> surface_models[] = {{"paper", SurfaceModel::paper},
+                                                 {"energy", SurfaceModel::energy}};
 
 std::span<const Word<bool>> words_of(bool) {
   return yes_no;
@@ -69,6 +72,12 @@ std::span<const Word<ExpansionKind>> words_of(ExpansionKind) {
 }
 std::span<const Word<ParallelData>> words_of(ParallelData) {
   return parallel_data;
+}
+std::span<const Word<SelfField>> words_of(SelfField) {
+  return self_fields;
+}
+std::span<const Word<SurfaceModel>> words_of(SurfaceModel) {
+  return surface_models;
 }
 
 template <class T>

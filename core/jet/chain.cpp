@@ -53,7 +53,6 @@ void set_elements(Chain<D>& chain, const Jet<D>& jet, const State<D>& y,
   const auto [first, last] = rows;
   const Eigen::Index n = y.rows(), m = last - first;
   chain.stress.segment(first, m) = y.col(stress_column<D>).segment(first, m);
-  chain.inverse_mass.segment(first, m) = jet.mass.segment(first, m).inverse();
   chain.volume.segment(first, m) = jet.volume.segment(first, m);
 
   const Elements<D> element{columns<D>(chain.tangent), chain.inverse_length.data(), chain.strain_rate.data()};

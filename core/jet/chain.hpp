@@ -64,16 +64,17 @@ void set_boundary(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, d
   chain.point_charge[points - 1] = Nozzle<D>::charge;
 }
 
-/// Sets the beads first <= i < last as points.
+/// Sets the beads first <= i < last as points, with their masses. with their masses.
 template <int D>
 void set_points(Chain<D>& chain, const Jet<D>& jet, const State<D>& y,
                 std::pair<Eigen::Index, Eigen::Index> rows) {
   const auto [first, last] = rows;
   chain.point.middleRows(first, last - first) = y.middleRows(first, last - first).template leftCols<D>();
   chain.point_charge.segment(first, last - first) = jet.charge.segment(first, last - first);
+  chain.inverse_mass.segment(first, last - first) = jet.mass.segment(first, last - first).inverse();
 }
 
-/// Sets the elements first <= i < last, with the masses of their beads, after the boundary.
+/// Sets the elements first <= i < last, after the boundary.
 template <int D>
 void set_elements(Chain<D>& chain, const Jet<D>& jet, const State<D>& y,
                   std::pair<Eigen::Index, Eigen::Index> rows);

@@ -16,6 +16,8 @@ enum class Units { cgs, real };
 enum class CoulombSum { direct, tree, automatic };
 enum class TreeOrder { automatic, chain, space };
 enum class ExpansionKind { local, none };
+enum class SelfField { point, slender };
+enum class SurfaceModel { paper, energy };
 enum class ParallelData { replicated, distributed };
 
 /// How the Coulomb sum is made; what is not given the program chooses.
@@ -53,6 +55,8 @@ struct Parameters : CoulombSetting {
   double collector_distance = 0;  ///< cm
   double external_potential = 0;  ///< statV
   double surface_tension = 0;     ///< g/s^2
+  SurfaceModel surface_model = SurfaceModel::paper;
+  SelfField self_field = SelfField::point;
   double yield_stress = 0;        ///< g/(cm s^2)
   bool hbfluid = false;
   double hb_consistency = 1;  ///< in units of the viscosity, strain rates in 1/s

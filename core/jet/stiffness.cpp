@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/jet/scales.hpp"
 #include "core/jet/schemes.hpp"
@@ -16,8 +17,16 @@ namespace {
 /// stage.
 constexpr double bound_by_stability = 20;
 
+/// dT/dl at the most.
+double self_field_stiffness(const Parameters& p, const Scales& s) {
+  if (p.self_field == SelfField::point) return 0;
+  const double g = std::log(2 * s.l_step / p.nozzle_cross) - std::numbers::egamma;
+  return s.charge * s.charge / (s.l_step * s.l_step * s.l_step) * (2 * std::abs(g) + 4.5);
+}
+
 double fastest_rate(const Parameters& p, const Scales& s) {
-  const double omega = 2 / s.l_step * std::sqrt(p.elastic_modulus / p.density_mass), damping = 1 / s.time;
+  const double wave = 2 / s.l_step * std::sqrt(p.elastic_modulus / p.density_mass), damping = 1 / s.time;
+  const double omega = std::sqrt(wave * wave + 4 * self_field_stiffness(p, s) / s.mass);
   const double overdamped = damping * damping - 4 * omega * omega;
   return overdamped > 0 ? (damping + std::sqrt(overdamped)) / 2 : omega;
 }

@@ -5,7 +5,9 @@
 /// A chain of elements of length l carries longitudinal waves, damped by relaxation: with omega = 2 / l
 /// sqrt(G / rho) and tau = mu / G its fastest rates solve  lambda^2 + lambda / tau + omega^2 = 0 .  They are
 /// fastest in the shortest elements, l = l_step, at the nozzle. Elastic (omega tau > 1/2), |lambda| = omega;
-/// viscous, |lambda| rises up to 1 / tau.
+/// viscous, |lambda| rises up to 1 / tau. With `self field slender` the charge q of a bead of mass m stiffens
+/// its element, at most by  dT/dl = q^2 / l^3 (2 |g| + 9/2)  (forces/terms/slender_self_field.hpp), and
+/// omega^2 grows by 4 dT/dl / m.
 ///
 /// Accuracy asks for a few steps a bead. Beads follow each other at l_step / v, where inertia and the Maxwell
 /// stress balance what drives the jet, the repulsion of neighbours and the field on one element:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "core/jet/schemes.hpp"
@@ -11,6 +12,8 @@
 #include "forces/scene/coulomb_settings.hpp"
 #include "forces/terms/constitutive.hpp"
 #include "forces/terms/coulomb_force.hpp"
+#include "forces/terms/slender_self_field.hpp"
+#include "forces/terms/surface_energy.hpp"
 #include "forces/terms/surface_tension.hpp"
 #include "forces/terms/uniform.hpp"
 #include "forces/terms/viscoelastic.hpp"
@@ -18,6 +21,12 @@
 namespace treejet {
 
 namespace {
+
+/// A jet that ends for good at its free end has half a cell there. With insertion the end is one of many: a
+/// whole bead, as the next one will be.
+bool ends_in_half_a_cell(const Parameters& p) {
+  return p.self_field == SelfField::slender && !p.inserting;
+}
 
 /// Beads at x_i = initial length - i l_step, at the nozzle velocity and stress: those with these numbers.
 template <int D>
@@ -33,6 +42,7 @@ Jet<D> initial_jet(const Parameters& p, const std::vector<int>& beads) {
   jet.volume.setOnes(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     r[0] = (initial_elements(p) - beads[static_cast<std::size_t>(i)]) * s.l_step / s.length;
+    if (beads[static_cast<std::size_t>(i)] == 0 && ends_in_half_a_cell(p)) jet.mass[i] = jet.charge[i] = 0.5;
     jet.y.row(i) << r.transpose().array(), v.transpose().array(), p.nozzle_stress / s.stress;
   }
   return jet;
@@ -71,13 +81,22 @@ class Composer {
         [&] { return std::make_unique<ElectricField<D>>(g_.V); }, "external field");
     add(
         g_.F_g != 0, "no gravity yes", [&] { return std::make_unique<Gravity<D>>(g_.F_g); }, "gravity");
-    if constexpr (D == 3) {
+    if (p_.surface_model == SurfaceModel::energy) {
+      const double alpha = g_.A / (std::numbers::pi * section().radius * section().radius);
+      add(
+          g_.A != 0, "surface tension is 0",
+          [&] { return std::make_unique<SurfaceEnergy<D>>(alpha, section()); }, "surface tension");
+    } else if constexpr (D == 3) {
       add(
           g_.A != 0, "surface tension is 0",
           [&] { return std::make_unique<SurfaceTension>(g_.L_step, g_.A); }, "surface tension");
     } else {
       left_out.push_back({"surface tension", "a straight jet (system 1) has no curvature"});
     }
+    add(
+        p_.self_field == SelfField::slender && g_.Q != 0,
+        g_.Q == 0 ? "density charge is 0" : "self field point",
+        [&] { return std::make_unique<SlenderSelfField<D>>(g_.Q, section()); }, "slender self-field");
     if (in_pieces()) {
       note(g_.Q != 0, "Coulomb sum of all pieces", "parallel distributed", "density charge is 0");
     } else {
@@ -113,6 +132,8 @@ class Composer {
   std::vector<Composed> composed, left_out;
 
  private:
+  Section section() const { return {p_.nozzle_cross / scales(p_).length, g_.L_step}; }
+
   std::unique_ptr<CoulombForce<D>> coulomb() {
     if (p_.coulomb == CoulombSum::direct) return std::make_unique<CoulombForce<D>>(g_.Q, reach(p_), ranks_);
     return std::make_unique<CoulombForce<D>>(g_.Q, coulomb_request(p_, /*points_move*/ true), ranks_);

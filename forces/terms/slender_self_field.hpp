@@ -1,0 +1,53 @@
+#pragma once
+/// What a chain of point charges leaves out of the field of a thin tube: with it the force on a bend no
+/// longer depends on the spacing of the beads.
+///
+/// Within L of a point a tube of radius a and line charge lambda, charged on its surface, makes the potential
+/// 2 lambda ln(2 L / a), beads at spacing l make 2 lambda (ln(L / l) + gamma). The energy of the difference,
+/// of an element e of charge Q_e, and the tension that follows from it, as charge and volume (a^2 l) are
+/// frozen into the fluid, are
+///
+///     U_e = Q_e^2 / l_e g ,    g = ln(2 l_e / a_e) - gamma ,      T_e = dU_e/dl = Q_e^2 / l_e^2 (3/2 - g) ;
+///
+/// of 3/2, 1/2 is the electric pressure. The element pulls its beads together as in viscoelastic.hpp, so that
+/// momentum is kept, and energy while no bead is held. Without the surface charge's pressure: 1 - g.
+///
+///   - Charge: Q_e = V_e sqrt(c_i c_up), c the charge over mass of its two beads, so that a free end may be a
+///     bead of half a cell. A whole one stands for a tube that reaches half an element farther.
+///   - Elements below l = 2 a: g -> ln(1 + e^(8 g)) / 8, 3/2 -> 3/2 / (1 + e^(-8 g)). U stays positive and
+///   finite.
+///   - While a bead is held with charge s, the youngest element, of length d, has (1 - s) T(d) + s T(d -
+///   l_step).
+///
+/// Errors: O(a^2 / R^2) at distance R; second order in smooth spacings. Where the spacing jumps, three beads
+/// there get forces of order lambda^2 whose sum is 0. Neighbours softened by a, with another g that is exact
+/// at any l/a on a straight line, agree above l = 3 a and couple several neighbours, which neither the stiff
+/// scheme nor a chain in pieces could treat as local; not taken. Scaled. Sources: slender-body theory; the
+/// electric pressure as in Hohman, Shin, Rutledge and Brenner, Phys. Fluids 13 (2001) 2201.
+
+#include "forces/terms/section.hpp"
+#include "forces/terms/term.hpp"
+
+namespace treejet {
+
+template <int D>
+class SlenderSelfField final : public ForceTerm<D> {
+ public:
+  /// Q: the Coulomb term's group.
+  SlenderSelfField(double Q, Section section) : Q_(Q), section_(section) {}
+  std::string_view name() const override { return "slender self-field"; }
+  void add(const Chain<D>& c, Rows rows, Acceleration<D>& a) const override;
+  void differentiate(const Chain<D>& c, LocalJacobian<D>& J) const override;
+
+  /// Sum of U_e. Meaningless while a bead is held: its charge is a function of time.
+  double energy(const Chain<D>& c) const;
+
+ private:
+  double charges(const Chain<D>& c, int element) const;
+  double tension_of_youngest(const Chain<D>& c) const;
+
+  double Q_;
+  Section section_;
+};
+
+}  // namespace treejet
