@@ -41,6 +41,7 @@ const std::vector<Study> studies = {
      40},
     {"whipping", "Frequency and wavelength of the whipping", {treejet::study_whipping}, 1, 10},
     {"resolution", "Case 3 with longer and shorter elements", {treejet::study_resolution}, 2, 15},
+    {"convergence", "Point charges against the slender self-field", {treejet::study_convergence}, 3, 30},
     {"time",
      "Error against work, orders of convergence, time reversal",
      {treejet::study_time_reversal, treejet::study_reference_values, treejet::study_work_precision},

@@ -145,6 +145,27 @@ def draw_resolution(rows, directory):
     finish(figure, [panel], directory / "resolution.png")
 
 
+def draw_convergence(rows, directory, name, answers):
+    figure, panels = plt.subplots(1, len(answers), figsize=(3.4 * len(answers), 3.8), layout="constrained")
+    step = column(rows, "l_step [cm]")
+    for panel, what in zip(panels, answers):
+        for field, colour in (("points", "#d62828"), ("slender", "#00798c")):
+            panel.semilogx(step, column(rows, f"{field}: {what}"), color=colour, marker="o", markersize=4, label=field)
+        panel.invert_xaxis()
+        panel.minorticks_off()
+        panel.set_xticks(step, [f"{s:g}" for s in step], rotation=45)
+        panel.set(xlabel="length of an element (cm)", title=what)
+    finish(figure, panels, directory / f"{name}.png")
+
+
+def draw_convergence_pvp(rows, directory):
+    draw_convergence(rows, directory, "convergence-pvp", ("aperture [degree]", "path [cm]", "current [statC/s]", "vc [cm/s]"))
+
+
+def draw_convergence_straight(rows, directory):
+    draw_convergence(rows, directory, "convergence-straight", ("current [statC/s]", "vc [cm/s]", "rc [cm]"))
+
+
 def draw_whipping_frequencies(rows, directory):
     frequencies = rows_of(rows, "omega [rad/s]")
     figure, panels = plt.subplots(1, len(frequencies), figsize=(max(6.4, 4.6 * len(frequencies)), 4.4), squeeze=False, layout="constrained")
@@ -178,6 +199,8 @@ DRAWINGS = {
     "case3_jets": [draw_case3_jets],
     "performance": [draw_performance],
     "resolution": [draw_resolution],
+    "convergence-pvp": [draw_convergence_pvp],
+    "convergence-straight": [draw_convergence_straight],
     "whipping_frequencies": [draw_whipping_frequencies],
     "whipping_axis": [draw_whipping_axis],
 }

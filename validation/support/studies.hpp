@@ -19,6 +19,9 @@ void study_whipping(Report& report);
 /// The steady state of the PVP jet against the length of its elements.
 void study_resolution(Report& report);
 
+/// Point charges against the slender self-field, as elements get shorter.
+void study_convergence(Report& report);
+
 /// The same bytes on any number of ranks and threads.
 void study_determinism(Report& report);
 

@@ -97,6 +97,22 @@ TEST_CASE("Each line that a deck leaves out takes exactly its own term away, and
   without({}, "removal at the collector", "no removing yes", [](Parameters& p) { p.removing = false; });
 }
 
+TEST_CASE("The slender self-field and the energy of the surface are there if the deck names them") {
+  Parameters p = example("pvp");
+  p.self_field = SelfField::slender;
+  p.surface_model = SurfaceModel::energy;
+  CHECK(terms(compose<3>(p, {1})) ==
+        Names{viscoelastic, field, gravity, "surface tension as an energy", "slender self-field", coulomb});
+  const auto ends_whole = compose<3>(p, {1});
+  CHECK(ends_whole.jet.charge[0] == 1);
+  p.inserting = false;
+  const auto ends_in_half_a_cell = compose<3>(p, {1});
+  CHECK(ends_in_half_a_cell.jet.charge[0] == 0.5);
+  CHECK(ends_in_half_a_cell.jet.mass[0] == 0.5);
+  p.density_charge = 0;
+  CHECK(reason(compose<3>(p, {1}), "slender self-field") == "density charge is 0");
+}
+
 TEST_CASE("A Herschel-Bulkley fluid takes the place of Maxwell's") {
   Parameters p = example("pvp");
   p.hbfluid = true;
