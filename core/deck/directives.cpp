@@ -1,3 +1,4 @@
+#include "core/base/tree_parameters.hpp"
 #include "core/deck/directives.hpp"
 
 #include <fmt/format.h>
@@ -18,10 +19,9 @@ constexpr Check below_one{"positive and below 1", [](double v) { return v > 0 &&
 constexpr Check one_or_three{"1 (straight jet) or 3 (three dimensions)",
                              [](double v) { return v == 1 || v == 3; }};
 constexpr Check a_count{"from 1 to 100000000", [](double v) { return v >= 1 && v <= 1e8; }};
-constexpr Check an_order{"from 2 to 14", [](double v) { return v >= 2 && v <= 14; }};
-constexpr Check an_opening{"above 0 and at most 0.9", [](double v) { return v > 0 && v <= 0.9; }};
-constexpr Check a_leaf{"a positive multiple of 16",
-                       [](double v) { return v > 0 && v == 16 * double(int(v / 16)); }};
+constexpr Check an_order{tree_parameters::orders, tree_parameters::is_order};
+constexpr Check an_opening{tree_parameters::openings, tree_parameters::is_opening};
+constexpr Check a_leaf{tree_parameters::leaf_sizes, tree_parameters::is_leaf};
 
 const std::string integrators =
     fmt::format("{} with timestep; {} with tolerance; auto takes kencarp5 for stiff scenes",

@@ -6,6 +6,7 @@
 #include "forces/coulomb/tree/multipole.hpp"
 #include "forces/coulomb/tree/passes.hpp"
 #include "forces/coulomb/tree/space_order.hpp"
+#include "forces/coulomb/tree/traversal.hpp"
 
 namespace treejet {
 
@@ -191,7 +192,7 @@ bool EssentialTree::closed(int k, const BoundaryTree& outline) const {
       const double dx = outline.centre[0][b] - x, dy = outline.centre[1][b] - y,
                    dz = outline.centre[2][b] - z;
       const double size = radius + outline.reach[b];
-      near += !(size * size < outline.opening2 * (dx * dx + dy * dy + dz * dz));
+      near += !are_far(size, outline.opening2, dx * dx + dy * dy + dz * dz);
     }
     if (near > 0) return false;
   }

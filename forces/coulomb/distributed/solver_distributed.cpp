@@ -5,12 +5,17 @@
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/base/tree_parameters.hpp"
 #include "forces/coulomb/distributed/sample_distributed.hpp"
 #include "forces/coulomb/solver/autotune.hpp"
 
 namespace treejet {
 
 namespace {
+
+/// A leaf. Of subdomains of a few points a tree is no cheaper than the direct sum, and one that moves and
+/// grows by a bead errs by many times the accuracy before it is measured again.
+constexpr int least_points_of_a_rank = 32;
 
 /// All pairs are near whatever the order; the moments, which nobody asks for, are short.
 TreeShape all_pairs() {
@@ -70,6 +75,8 @@ void DistributedSolver::choose(const PointCharges<3>& piece, int n, Threads thre
   report_.expected_error = report_.error.l2 = report_.error.max = 0;
   if (request_.method == CoulombMethod::automatic && n < direct_below(request_.accuracy, isa_)) {
     report_.reason = "fewer points than the crossover of the table";
+  } else if (request_.method != CoulombMethod::direct && n < least_points_of_a_rank * ranks_.size()) {
+    report_.reason = "too few points for every rank to have a leaf";
   } else if (request_.method != CoulombMethod::direct) {
     TreeShape shape;
     shape.order = request_.order.value_or(usual_order(request_.accuracy));
@@ -114,7 +121,7 @@ void DistributedSolver::search(const PointCharges<3>& piece, TreeShape shape, Th
   SampledError best;
   report_.reason = "no tree is as accurate as asked for";
   for (int order : {shape.order, shape.order + 1, shape.order - 1}) {
-    if (order < 2 || order > 14 || (request_.order && order != *request_.order)) continue;
+    if (!tree_parameters::is_order(order) || (request_.order && order != *request_.order)) continue;
     shape.order = order;
     pieces_.arrange(piece, shape, threads, true);
     const auto error = find_opening(sample, threads);

@@ -5,13 +5,12 @@
 #include <stdexcept>
 
 #include "forces/coulomb/tree/passes.hpp"
+#include "forces/coulomb/tree/traversal.hpp"
 
 namespace treejet {
 
 namespace {
 
-/// Levels above the one with so many cells are walked by one thread, the subtrees below by all.
-constexpr int subtrees = 64;
 constexpr int leaves_a_task = 64;
 
 }  // namespace
@@ -69,7 +68,7 @@ class DistributedTreeField::Walk {
       const int source = lists.open[k];
       const EssentialTree::Cell& cell = tree_.cell(source);
       const double size = radius + cell.critical_radius;
-      if (size * size < opening2_ * tree_.distance2(target, source)) {
+      if (are_far(size, opening2_, tree_.distance2(target, source))) {
         lists.far.push_back(source);
       } else if (cell.children > 0) {
         auto& to = leaf ? lists.open : lists.near;
@@ -80,21 +79,16 @@ class DistributedTreeField::Walk {
     }
   }
 
-  /// Neighbouring leaves are neighbouring points: one range of sources.
   void act_near(int leaf, std::vector<int>& near) {
     const auto before = [&](int a, int b) { return tree_.cell(a).points.first < tree_.cell(b).points.first; };
     std::sort(near.begin(), near.end(), before);
-    std::vector<CellRange> sources;
     const CellPoints target = tree_.leaf(leaf);
-    for (int k : near) {
+    const std::vector<CellRange> sources = near_ranges(near, [&](int k) {
       const Rows points = tree_.cell(k).points;
       if (points.size() == 0) throw std::logic_error("a leaf asks for what is in a closed cell");
       done.pairs += std::int64_t{target.count} * points.size();
-      if (!sources.empty() && sources.back().last == points.first)
-        sources.back().last = points.last;
-      else
-        sources.push_back({points.first, points.last});
-    }
+      return points;
+    });
     if (only_count_) return;
     double* const E[3] = {pieces_.sums_[0].data(), pieces_.sums_[1].data(), pieces_.sums_[2].data()};
     pieces_.kernels_->p2p(target, sources.data(), static_cast<int>(sources.size()), E);
@@ -131,8 +125,7 @@ Interactions DistributedTreeField::evaluate(const std::vector<int>& leaves, Thre
   if (leaves.empty()) return {};
   const Cells& own = tree_.own();
   mark_above(own, leaves, wanted_);
-  int cut = 0;
-  while (cut < own.levels() - 1 && own.level(cut).last - own.level(cut).first < subtrees) ++cut;
+  const int cut = level_of_subtrees(own);
   Walk top(*this, false, cut > 0 ? cut : -1);
   top(0, 0, tree_.roots());
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/base/tree_parameters.hpp"
 namespace treejet {
 
 namespace {
@@ -156,7 +157,7 @@ struct Search {
     tree.arrange(points, shape, threads);
     CoulombSample sample(points.n, tree, threads);
     for (int order : orders)
-      if (order >= 2 && order <= 14) try_openings(order, sample, widest);
+      if (tree_parameters::is_order(order)) try_openings(order, sample, widest);
   }
 
   void try_openings(int order, CoulombSample& sample, double widest) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/base/tree_parameters.hpp"
 #include "forces/coulomb/solver/autotune.hpp"
 #include "parallel/share_rows.hpp"
 
@@ -47,12 +48,13 @@ int repair_coincident(const PointCharges<3>& points, Rows rows, const FieldArray
 
 void require_valid(const CoulombRequest& request) {
   if (!(request.accuracy > 0)) throw InputError("coulomb accuracy must be positive");
-  if (request.order && (*request.order < 2 || *request.order > 14))
-    throw InputError("coulomb order must be 2 to 14");
-  if (request.opening && !(*request.opening > 0 && *request.opening <= 0.9))
-    throw InputError("coulomb opening must be above 0 and at most 0.9");
-  if (request.leaf && (*request.leaf < 16 || *request.leaf % 16 != 0))
-    throw InputError("coulomb leaf must be a multiple of 16");
+  using namespace tree_parameters;
+  const auto require = [](bool valid, const char* name, const char* range) {
+    if (!valid) throw InputError(fmt::format("coulomb {} must be {}", name, range));
+  };
+  require(!request.order || is_order(*request.order), "order", orders);
+  require(!request.opening || is_opening(*request.opening), "opening", openings);
+  require(!request.leaf || is_leaf(*request.leaf), "leaf", leaf_sizes);
 }
 
 CoulombSolver::CoulombSolver(const CoulombRequest& request, Isa isa, const Ranks& ranks)

@@ -15,6 +15,34 @@
 
 namespace treejet {
 
+/// Whether two cells of these critical radii, summed, and this distance, squared, are far from each other.
+inline bool are_far(double radii, double opening2, double distance2) {
+  return radii * radii < opening2 * distance2;
+}
+
+/// The ranges of the points of near leaves: neighbouring leaves are neighbouring points, hence one range.
+/// `points_of` gives the rows of a leaf; the leaves stand in the order of their points.
+template <class PointsOf>
+std::vector<CellRange> near_ranges(std::span<const int> leaves, PointsOf&& points_of) {
+  std::vector<CellRange> ranges;
+  for (int leaf : leaves) {
+    const Rows points = points_of(leaf);
+    if (!ranges.empty() && ranges.back().last == points.first)
+      ranges.back().last = points.last;
+    else
+      ranges.push_back({points.first, points.last});
+  }
+  return ranges;
+}
+
+/// Cells above the first level with so many are walked by one thread, the subtrees below by all.
+inline int level_of_subtrees(const Cells& cells) {
+  constexpr int subtrees = 64;
+  int level = 0;
+  while (level < cells.levels() - 1 && cells.level(level).last - cells.level(level).first < subtrees) ++level;
+  return level;
+}
+
 class Traversal {
  public:
   Traversal(const Cells& cells, double opening)
@@ -84,7 +112,7 @@ class Traversal {
     for (int k : candidate) {
       const int id = first + k;
       const double dx = cx[id] - x, dy = cy[id] - y, dz = cz[id] - z, size = R[id] + radius;
-      lists.add(id, k, size * size < opening2_ * (dx * dx + dy * dy + dz * dz));
+      lists.add(id, k, are_far(size, opening2_, dx * dx + dy * dy + dz * dz));
     }
   }
 

@@ -155,16 +155,8 @@ void TreeField::gather(const std::vector<int>& leaves, std::size_t sums) {
   for_each_leaf([](double* sum, const double* value, int n) { std::copy_n(value, n, sum); });
 }
 
-/// Neighbouring leaves are neighbouring points: one range of sources.
 void TreeField::act_near(int leaf, std::span<const int> near) {
-  std::vector<CellRange> sources;
-  for (int k : near) {
-    const Rows rows = cells_.leaf_points(k);
-    if (!sources.empty() && sources.back().last == rows.first)
-      sources.back().last = rows.last;
-    else
-      sources.push_back({rows.first, rows.last});
-  }
+  const std::vector<CellRange> sources = near_ranges(near, [&](int k) { return cells_.leaf_points(k); });
   const CellPoints target = leaf_cell(leaf);
   const int count = static_cast<int>(sources.size());
   if (expansions_.potential)
@@ -184,8 +176,7 @@ Interactions TreeField::local_expansions(std::span<const int> leaves, Threads th
     std::vector<int> sources;  ///< far cells of one target cell above the cut, or candidates of a subtree
     bool subtree;
   };
-  int cut = 0;
-  while (cut < cells_.levels() - 1 && cells_.level(cut).last - cells_.level(cut).first < 64) ++cut;
+  const int cut = level_of_subtrees(cells_);
   const auto walked = [this](int cell) { return wanted(cell); };
 
   std::vector<Task> tasks;
@@ -211,7 +202,8 @@ Interactions TreeField::local_expansions(std::span<const int> leaves, Threads th
     };
     const auto near = [&](int leaf, std::span<const int> leaves) {
       act_near(leaf, leaves);
-      for (int k : leaves) count.pairs += cells_.leaf_points(leaf).size() * cells_.leaf_points(k).size();
+      for (int k : leaves)
+        count.pairs += std::int64_t{cells_.leaf_points(leaf).size()} * cells_.leaf_points(k).size();
     };
     if (task.subtree)
       Traversal(cells_, shape_.opening)
@@ -240,7 +232,8 @@ Interactions TreeField::count() const {
             work.expansions += static_cast<int>((far.size() + 7) / 8 * 8);
           },
           [&](int leaf, std::span<const int> near) {
-            for (int k : near) work.pairs += cells_.leaf_points(leaf).size() * cells_.leaf_points(k).size();
+            for (int k : near)
+              work.pairs += std::int64_t{cells_.leaf_points(leaf).size()} * cells_.leaf_points(k).size();
           },
           [](int, int, std::span<const int>) {});
   return work;
