@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/commands/command_line.hpp"
+#include "core/commands/companions.hpp"
 #include "core/commands/convert.hpp"
 #include "core/commands/file_info.hpp"
 #include "core/deck/deck.hpp"
@@ -44,6 +45,7 @@ int main(int argc, char** argv) {
     return ranks.fail(exit_code, fmt::format("treejet: {}\n", what));
   };
   try {
+    treejet::hand_over_to_companion(argc, argv);
     ranks = treejet::join_ranks();
     const auto arguments = treejet::command_line(argc, argv, treejet::version_text());
     return arguments ? treejet::main(*arguments, ranks) : 0;

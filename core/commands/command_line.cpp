@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "core/commands/companions.hpp"
 #include "core/io/frame_writer.hpp"
 
 namespace treejet {
@@ -19,7 +20,8 @@ A deck is a text file of directives in CGS units, as JETSPIN's input.dat. Start 
   treejet template > input.dat         a commented deck with every directive
   treejet check input.dat              what it composes, without running it
   treejet run input.dat --out results  run it; then look at it:
-  python3 validation/pictures/plot_run.py results
+  treejet plot results                 pictures of the jet and of the table
+  treejet view results                 the jet in a browser, to turn and to play (wants print hdf5 in the deck)
 Any directive can be replaced for one run:
   treejet run input.dat --out r12 --set "external potential 40.03" --set "final time 0.1"
 
@@ -165,6 +167,7 @@ std::optional<Arguments> command_line(int argc, char** argv, const std::string& 
   add_field(app, a);
   app.add_subcommand("template", "Print a commented deck with every directive");
   app.add_subcommand("reference", "Print the tables of directives and observables (Markdown)");
+  for (const Companion& c : companions) app.add_subcommand(c.word, c.what);
 
   try {
     app.parse(argc, argv);

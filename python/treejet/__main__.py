@@ -1,0 +1,111 @@
+"""`treejet view|plot|movie|sweep|export`: the program hands these words on to `python3 -m treejet`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+
+def arguments() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="treejet", description="Looks at runs, and makes many of them.")
+    words = parser.add_subparsers(dest="word", required=True, metavar="view|plot|movie|sweep|export")
+
+    def about_run(word: str, what: str, out: str) -> argparse.ArgumentParser:
+        command = words.add_parser(word, help=what, description=what)
+        command.add_argument("run", metavar="DIR", type=Path, help="directory of the run")
+        command.add_argument("--out", metavar="PATH", type=Path, help=out)
+        return command
+
+    view = about_run("view", "One HTML file to turn, zoom and play the jet in, without network", "the file (default: DIR/view.html)")
+    view.add_argument("--frames", metavar="N", type=positive, default=600, help="frames at the most (default: 600)")
+    plot = about_run("plot", "Pictures of the jet and of the observables", "where the pictures go (default: DIR)")
+    plot.add_argument("--frame", metavar="N", type=int, help="frame, counted from 0 (default: the last)")
+    movie = about_run("movie", "The frames as mp4 (with ffmpeg) or gif", "the file (default: DIR/movie.mp4, or .gif)")
+    movie.add_argument("--frames", metavar="N", type=positive, default=240, help="frames at the most (default: 240)")
+    export = about_run("export", "The trajectory as GSD (OVITO) or VTKHDF (ParaView 5.12 on)", "the file (default: DIR/traj.gsd, ...)")
+    export.add_argument("--to", choices=("gsd", "vtkhdf"), required=True, help="format")
+    export.add_argument("--force", action="store_true", help="replace a file that is there already")
+    sweep = words.add_parser("sweep", help="Run a deck for many values of some directives", description=
+                             "Runs a deck for many values of some directives, side by side; goes on where it was stopped.")
+    sweep.add_argument("deck", metavar="DECK", type=Path)
+    sweep.add_argument("--vary", action="append", default=[], metavar="VALUES",
+                       help='"external potential: 6 kV .. 14 kV / 9", "viscosity: 1 .. 100 / 5 log" or "viscosity: 10, 20"; '
+                            "several make a grid")
+    sweep.add_argument("--list", metavar="CSV", type=Path, help="points from a table with a header of directives")
+    sweep.add_argument("--jobs", metavar="J", type=positive, default=1, help="runs side by side (default: 1)")
+    sweep.add_argument("--out", metavar="DIR", type=Path, default=Path("sweep"), help="directory (default: sweep)")
+    return parser
+
+
+def positive(text: str) -> int:
+    if int(text) < 1:
+        raise ValueError
+    return int(text)
+
+
+def main(words: "list[str]") -> int:
+    options = arguments().parse_args(words)
+    from .errors import TreejetError
+
+    try:
+        return {"view": look, "plot": look, "movie": look, "export": look, "sweep": sweep}[options.word](options)
+    except TreejetError as problem:
+        print(f"treejet: {problem}", file=sys.stderr)
+        return problem.exit_code
+    except OSError as problem:
+        print(f"treejet: {problem}", file=sys.stderr)
+        return 4
+    except KeyboardInterrupt:
+        print("treejet: stopped; the same command goes on", file=sys.stderr)
+        return 75
+
+
+def look(options: argparse.Namespace) -> int:
+    from .read import read
+
+    run = read(options.run)
+    if options.word == "view":
+        from .view import view
+
+        made = [view(run, options.out, options.frames)]
+    elif options.word == "plot":
+        from .plot import plot
+
+        made = plot(run, options.out, options.frame)
+    elif options.word == "movie":
+        from .plot import movie
+
+        made = [movie(run, options.out, options.frames)]
+    else:
+        from .export import export
+
+        made = [export(run, options.to, options.out, options.force)]
+    for path in made:
+        print(f"wrote {path}")
+    return 0
+
+
+def sweep(options: argparse.Namespace) -> int:
+    from . import sweep_plot
+    from .errors import InputError
+    from .sweep import from_csv, sweep, varied
+
+    if bool(options.vary) == bool(options.list):
+        raise InputError("a sweep needs --vary or --list, one of them")
+    pairs = [varied(text) for text in options.vary]
+    if len({name for name, _ in pairs}) < len(pairs):
+        raise InputError("--vary: a directive is named twice")
+    vary = from_csv(options.list) if options.list else dict(pairs)
+    points = sweep(options.deck, vary, options.out, options.jobs, told=lambda line: print(line, flush=True))
+    for path in (options.out / "sweep.csv", sweep_plot.draw(points, options.out / "sweep.png")):
+        if path:
+            print(f"wrote {path}")
+    failed = [point for point in points if point.exit_code]
+    if failed:
+        print(f"treejet: {len(failed)} of {len(points)} points failed; see the last column of sweep.csv", file=sys.stderr)
+    return max((point.exit_code for point in failed), default=0)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,84 @@
+"""The program itself: where it is, and how it is run."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+from typing import Optional, Union
+
+from .deck import Deck
+from .errors import FileError, TreejetError
+from .read import Run, read
+
+DeckLike = Union[str, "os.PathLike[str]", Deck]
+
+
+def find() -> str:
+    """The program: $TREEJET, else `treejet` on PATH, else build/release/treejet of the checkout this file is in."""
+    named = os.environ.get("TREEJET")
+    if named:
+        if not (os.path.isfile(named) and os.access(named, os.X_OK)):
+            raise FileError(f"TREEJET names {named}, which is no program")
+        return named
+    built = Path(__file__).resolve().parents[2] / "build" / "release" / "treejet"
+    found = shutil.which("treejet") or (str(built) if built.exists() else None)
+    if not found:
+        raise FileError("the program treejet is neither in $TREEJET, nor on PATH, nor built in build/release")
+    return found
+
+
+def call(*arguments: str) -> str:
+    """What the program prints, e.g. `call("reference")`; TreejetError with its own message if it fails."""
+    done = subprocess.run([find(), *arguments], capture_output=True, text=True)
+    if done.returncode:
+        raise failure(done.stderr, done.returncode)
+    return done.stdout
+
+
+def failure(said: str, exit_code: int) -> TreejetError:
+    """The error of a run, from what it said on its way out."""
+    return TreejetError(said.strip().removeprefix("treejet: ") or f"treejet ended with exit code {exit_code}", exit_code)
+
+
+def override(name: str, value: object) -> str:
+    """A line for --set.
+
+    >>> override("external_potential", "6 kV"), override("gravity", True), override("viscosity", 20.0)
+    ('external potential 6 kV', 'gravity yes', 'viscosity 20.0')
+    """
+    word = {True: "yes", False: "no"}[value] if isinstance(value, bool) else str(value)
+    return f"{name.replace('_', ' ')} {word}"
+
+
+def run_arguments(deck: str, out: str, overrides: "list[str]", threads: Optional[int], force: bool) -> "list[str]":
+    words = ["run", deck, "--out", out, "--quiet"]
+    for line in overrides:
+        words += ["--set", line]
+    if threads:
+        words += ["--threads", str(threads)]
+    return words + ["--force"] * force
+
+
+def run(deck: DeckLike, out: Union[str, "os.PathLike[str]"], threads: Optional[int] = None, force: bool = False,
+        **overrides: object) -> Run:
+    """Runs a deck and returns what came out.
+
+    `deck` is a file, or a Deck (of another run, or made from text). Overrides are directives with _ for blanks, as
+    strings with their unit, or bare numbers in CGS:
+
+        treejet.run("input.dat", out="r12", external_potential="12 kV", final_time=0.1)
+
+    TreejetError with the program's own message and exit code if it fails; the files are complete up to there.
+    """
+    lines = [override(name, value) for name, value in overrides.items()]
+    if not isinstance(deck, Deck):
+        call(*run_arguments(os.fspath(deck), os.fspath(out), lines, threads, force))
+        return read(out)
+    with tempfile.TemporaryDirectory() as directory:
+        written = Path(directory) / (Path(deck.name).name or "deck.dat")
+        written.write_text(deck.text)
+        call(*run_arguments(str(written), os.fspath(out), deck.overrides + lines, threads, force))
+    return read(out)

@@ -1,0 +1,216 @@
+"""Sweeps: a deck run for many values of some directives, side by side, each in a folder of its own.
+
+A grid is the product of what is varied; a list comes from a CSV file whose header names directives. DIR/sweep.json
+holds deck and points; DIR/001, 002, ... the runs; DIR/sweep.csv the steady means of each with their standard errors
+(means.py); DIR/sweep.png draws them. A sweep that was interrupted goes on: finished points are left alone, stopped ones
+resumed. A point that fails is in the table with its exit code and message and ends no other.
+
+>>> varied("external potential: 6 kV .. 14 kV / 5")
+('external potential', ['6 kV', '8 kV', '10 kV', '12 kV', '14 kV'])
+>>> varied("viscosity: 1 .. 100 / 3 log"), varied("gravity: yes, no")
+(('viscosity', ['1', '10', '100']), ('gravity', ['yes', 'no']))
+"""
+
+from __future__ import annotations
+
+import csv
+import itertools
+import json
+import math
+import os
+import re
+import subprocess
+import threading
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Callable, Optional, Union
+
+import numpy as np
+
+from . import program, units
+from .errors import FileError, InputError, TreejetError
+from .means import SteadyMean, steady_means
+from .read import Run, read
+
+FORMAT = "treejet sweep 1"
+STOPPED = 75
+
+
+@dataclass
+class Point:
+    """A point of a sweep and what became of it."""
+
+    number: int
+    values: "dict[str, str]"
+    directory: Path
+    exit_code: int = 0
+    message: str = ""
+    means: Mapping[str, SteadyMean] = field(default_factory=dict, repr=False)
+    units: Mapping[str, str] = field(default_factory=dict, repr=False)
+
+    @property
+    def run(self) -> Run:
+        return read(self.directory)
+
+    def overrides(self) -> "list[str]":
+        return [program.override(name, value) for name, value in self.values.items()]
+
+
+def varied(text: str) -> "tuple[str, list[str]]":
+    """Name and values of `NAME: FROM .. TO / COUNT [log]` or of `NAME: A, B, C`."""
+    name, colon, values = text.partition(":")
+    if not colon or not name.strip() or not values.strip():
+        raise InputError(f"--vary {text!r}: expected `directive: from .. to / count` or `directive: a, b, c`")
+    span = re.fullmatch(r"(.*?)\.\.(?!\d*\.\.)(.*)/\s*(\d+)\s*(log)?\s*", values)
+    if span is None:
+        if ".." in values:
+            raise InputError(f"--vary {text!r}: expected `from .. to / count`, e.g. `6 kV .. 14 kV / 9`")
+        return name.strip(), [value.strip() for value in values.split(",")]
+    (low, unit), (high, other), count = units.split(span[1]), units.split(span[2]), int(span[3])
+    if unit and other and unit != other:
+        high = float(units.convert(high, other, unit))
+    if count < 2:
+        raise InputError(f"--vary {text!r}: expected 2 values at least")
+    if span[4] and not (low > 0 and high > 0):
+        raise InputError(f"--vary {text!r}: log needs positive ends")
+    numbers = np.geomspace(low, high, count) if span[4] else np.linspace(low, high, count)
+    return name.strip(), [f"{number:.12g} {unit or other}".strip() for number in numbers]
+
+
+def from_csv(path: Path) -> "list[dict[str, str]]":
+    """Points from a table with a header of directives, e.g. `external potential,viscosity`."""
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = [{(k or "").strip(): (v or "").strip() for k, v in row.items()} for row in csv.DictReader(file)]
+    except OSError as problem:
+        raise FileError(f"{path}: {problem.strerror}") from None
+    if not rows or any("" in row or "" in row.values() for row in rows):
+        raise InputError(f"{path}: expected a header of directives and rows of as many values")
+    return rows
+
+
+def grid(vary: Mapping[str, Sequence[object]]) -> "list[dict[str, str]]":
+    """All combinations, the last directive fastest.
+
+    >>> grid({"viscosity": [10, 20], "gravity": ["yes"]})
+    [{'viscosity': '10', 'gravity': 'yes'}, {'viscosity': '20', 'gravity': 'yes'}]
+    """
+    names = [name.replace("_", " ") for name in vary]
+    return [dict(zip(names, map(str, values))) for values in itertools.product(*vary.values())]
+
+
+class Stop:
+    """Set once the user has asked for an end: no further point is begun."""
+
+    def __init__(self) -> None:
+        self.asked = threading.Event()
+
+
+def sweep(deck: Union[str, "os.PathLike[str]"],
+          vary: Union[Mapping[str, Sequence[object]], Sequence[Mapping[str, object]]],
+          out: Union[str, "os.PathLike[str]"] = "sweep", jobs: int = 1,
+          told: Optional[Callable[[str], None]] = None) -> "list[Point]":
+    """Runs the grid of `vary`, or the points of a list of dicts, `jobs` at a time; returns all points.
+
+    InputError if `out` holds another sweep. KeyboardInterrupt leaves checkpoints behind, from which the same call goes on.
+    """
+    if jobs < 1:
+        raise InputError("a sweep needs 1 job at least")
+    settings = grid(vary) if isinstance(vary, Mapping) else [{k: str(v) for k, v in row.items()} for row in vary]
+    place, source = Path(out), Path(deck)
+    text = _deck_text(source)
+    digits = max(3, len(str(len(settings))))
+    points = [Point(k, values, place / f"{k:0{digits}d}") for k, values in enumerate(settings, 1)]
+    _claim(place, text, settings)
+    say = told or (lambda line: None)
+    threads = max(1, (len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1) // jobs)
+    stop = Stop()
+    with ThreadPoolExecutor(jobs) as pool:
+        futures = [pool.submit(_finish, point, source, threads, stop) for point in points]
+        try:
+            for point, future in zip(points, futures):
+                future.result()
+                values = ", ".join(f"{name} {value}" for name, value in point.values.items())
+                say(f"{point.directory.name}  {values}: {point.message or 'done'}")
+        except KeyboardInterrupt:
+            stop.asked.set()  # the runs got the signal as well and write their checkpoints
+            raise
+    write_table(place / "sweep.csv", points)
+    return points
+
+
+def _deck_text(deck: Path) -> str:
+    try:
+        return deck.read_text(encoding="utf-8", errors="surrogateescape")
+    except OSError as problem:
+        raise FileError(f"{deck}: {problem.strerror}") from None
+
+
+def _claim(place: Path, deck: str, settings: "list[dict[str, str]]") -> None:
+    """The directory is this sweep's: new, empty, or left by the same one."""
+    record = place / "sweep.json"
+    mine = {"format": FORMAT, "deck": deck, "points": settings}
+    try:
+        if record.exists():
+            if json.loads(record.read_text()) != mine:
+                raise InputError(f"{place}: holds a sweep of another deck or of other points; name another --out")
+            return
+        place.mkdir(parents=True, exist_ok=True)
+        if any(place.iterdir()):
+            raise FileError(f"{place}: is not empty and holds no sweep; name another --out")
+        record.write_text(json.dumps(mine, indent=1) + "\n")
+    except (OSError, ValueError) as problem:
+        raise FileError(f"{record}: {problem}") from None
+
+
+def _finish(point: Point, deck: Path, threads: int, stop: Stop) -> None:
+    """Runs a point, goes on with it, or leaves it alone; its failure is noted, not raised."""
+    if not _is_finished(point):
+        if stop.asked.is_set():
+            point.exit_code, point.message = STOPPED, "not begun"
+            return
+        if (point.directory / "checkpoint").exists() or (point.directory / "checkpoint.old").exists():
+            words = ["run", "--resume", str(point.directory), "--quiet", "--threads", str(threads)]
+        else:
+            # what an attempt without a checkpoint left is begun anew
+            words = program.run_arguments(str(deck), str(point.directory), point.overrides(), threads, force=True)
+        done = subprocess.run([program.find(), *words], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+        if done.returncode:
+            point.exit_code = done.returncode
+            point.message = str(program.failure(done.stderr, done.returncode))
+    try:
+        table = point.run.observables
+        point.units = table.units
+        if point.exit_code == 0:
+            point.means = steady_means(table)
+    except TreejetError as problem:
+        point.exit_code = point.exit_code or problem.exit_code
+        point.message = point.message or str(problem)
+
+
+def _is_finished(point: Point) -> bool:
+    try:
+        return point.run.finished
+    except TreejetError:
+        return False
+
+
+def write_table(path: Path, points: "list[Point]") -> None:
+    """A row a point: values, exit code, `key[unit]` with its standard error and whether it is steady, message."""
+    unit_of = {key: point.units[key] for point in points for key in point.means}
+    names = list(points[0].values) if points else []
+    header = ["point", *names, "exit code"]
+    for key, unit in unit_of.items():
+        header += [f"{key}[{unit}]", f"error of {key}", f"{key} is steady"]
+    with open(path.with_suffix(".csv.next"), "w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow([*header, "message"])
+        for point in points:
+            row = [point.directory.name, *point.values.values(), point.exit_code]
+            for key in unit_of:
+                m = point.means.get(key)
+                row += [repr(m.mean), repr(m.error), "yes" if m.steady else "no"] if m else [math.nan, math.nan, ""]
+            table.writerow([*row, " ".join(point.message.split())])
+    path.with_suffix(".csv.next").replace(path)
