@@ -1,0 +1,104 @@
+"""Sweeps: every point in its folder, none ends another, an interrupted one goes on."""
+
+import csv
+import json
+import os
+import subprocess
+
+import pytest
+import treejet
+from treejet.sweep import from_csv, varied
+
+
+@pytest.fixture
+def quick(deck, tmp_path):
+    """The PVP jet for 4 ms before a near collector."""
+    text = deck.read_text().replace("final time 0.5d0", "final time 4.d-3").replace("print time 1.d-2", "print time 1.d-4")
+    text = text.replace("collector distance 16.d0", "collector distance 0.2").replace("print xyz 1.d-4", "")
+    (tmp_path / "quick.dat").write_text(text)
+    return tmp_path / "quick.dat"
+
+
+def table(out):
+    with open(out / "sweep.csv", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_a_grid_gives_the_runs_one_would_make_by_hand(quick, tmp_path):
+    points = treejet.sweep(quick, {"external potential": [20, 40], "viscosity": ["10", "20"]}, tmp_path / "grid", jobs=2)
+    assert [p.values for p in points][1] == {"external potential": "20", "viscosity": "20"}
+    alone = treejet.run(quick, tmp_path / "alone", external_potential=40, viscosity=10)
+    assert (points[2].directory / "statdat.dat").read_bytes().split(b"circumstances")[1] == \
+        (alone.directory / "statdat.dat").read_bytes().split(b"circumstances")[1]
+    rows = table(tmp_path / "grid")
+    assert [row["point"] for row in rows] == ["001", "002", "003", "004"] and all(row["exit code"] == "0" for row in rows)
+    for row, point in zip(rows, points):
+        assert float(row["vc[cm/s]"]) == point.means["vc"].mean
+    # a stronger field draws a faster jet
+    assert float(rows[2]["vc[cm/s]"]) > float(rows[0]["vc[cm/s]"])
+
+
+def test_a_point_that_fails_ends_no_other_and_tells_why(quick, tmp_path):
+    points = treejet.sweep(quick, {"viscosity": [10, -3, 20]}, tmp_path / "out", jobs=2)
+    assert [p.exit_code for p in points] == [0, 2, 0] and "positive" in points[1].message
+    rows = table(tmp_path / "out")
+    assert rows[1]["exit code"] == "2" and rows[1]["vc[cm/s]"] == "nan" and "positive" in rows[1]["message"]
+
+
+def test_finished_points_are_left_alone_and_stopped_ones_resumed(quick, tmp_path):
+    vary, out = {"viscosity": [10, 20, 15]}, tmp_path / "out"
+    whole = treejet.sweep(quick, vary, out)
+    kept = (out / "001" / "run.json").stat().st_mtime_ns
+    expected = [(p.directory / "statdat.dat").read_bytes() for p in whole]
+    # the second point as a run that was stopped at once leaves it, the third as one that was killed before a checkpoint
+    for name in ("002", "003"):
+        for file in (out / name).iterdir():
+            file.unlink()
+    stopped = subprocess.run([treejet.find(), "run", quick, "--out", out / "002", "--quiet", "--walltime", "0.001",
+                              "--set", "viscosity 20"], capture_output=True)
+    assert stopped.returncode == 75 and (out / "002" / "checkpoint").exists()
+    (out / "003" / "statdat.dat").write_text("# t[s] x[cm]\n")
+    again = treejet.sweep(quick, vary, out)
+    assert [p.exit_code for p in again] == [0, 0, 0]
+    assert (out / "001" / "run.json").stat().st_mtime_ns == kept
+    assert [(p.directory / "statdat.dat").read_bytes() for p in again] == expected
+    assert len(json.loads((out / "002" / "run.json").read_text())["segments"]) == 2
+
+
+def test_a_directory_of_another_sweep_or_of_anything_else_is_left_alone(quick, tmp_path):
+    treejet.sweep(quick, {"viscosity": [10]}, tmp_path / "out")
+    with pytest.raises(treejet.InputError, match="another deck or of other points"):
+        treejet.sweep(quick, {"viscosity": [11]}, tmp_path / "out")
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "thesis.tex").touch()
+    with pytest.raises(treejet.FileError, match="is not empty"):
+        treejet.sweep(quick, {"viscosity": [11]}, tmp_path / "full")
+
+
+def test_a_list_of_points_comes_from_a_table(tmp_path):
+    (tmp_path / "points.csv").write_text("external potential,viscosity\n6 kV,10\n9 kV,20\n")
+    assert from_csv(tmp_path / "points.csv") == [{"external potential": "6 kV", "viscosity": "10"},
+                                                 {"external potential": "9 kV", "viscosity": "20"}]
+    (tmp_path / "points.csv").write_text("external potential,viscosity\n6 kV\n")
+    with pytest.raises(treejet.InputError, match="as many values"):
+        from_csv(tmp_path / "points.csv")
+
+
+@pytest.mark.parametrize("text", ["viscosity", "viscosity:", "viscosity: 1 .. 2", "viscosity: 1 .. 2 / 1",
+                                  "viscosity: 0 .. 2 / 3 log", "viscosity: 1 kV .. 2 cm / 3", ": 1, 2"])
+def test_malformed_variations_are_refused(text):
+    with pytest.raises(treejet.InputError):
+        varied(text)
+
+
+def test_ends_in_different_units_are_one_quantity():
+    assert varied("external potential: 900 V .. 3 kV / 3")[1] == ["900 V", "1950 V", "3000 V"]
+
+
+def test_the_command_writes_table_and_picture(quick, tmp_path):
+    done = subprocess.run([treejet.find(), "sweep", quick, "--vary", "external potential: 20 .. 40 / 3", "--out",
+                           tmp_path / "out", "--jobs", "2"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert len(table(tmp_path / "out")) == 3
+    assert (tmp_path / "out" / "sweep.png").read_bytes().startswith(b"\x89PNG")
+    assert os.listdir(tmp_path / "out" / "002")
