@@ -7,8 +7,9 @@ cd "$(dirname "$0")"
 
 for_building="g++ cmake ninja-build libeigen3-dev libfmt-dev libcli11-dev zlib1g-dev libhdf5-dev nlohmann-json3-dev
   libopenmpi-dev openmpi-bin"
-for_pictures="python3-matplotlib"
-for_tests="catch2 libfftw3-dev libsundials-dev hdf5-tools python3-h5py python3-ase python3-matplotlib python3-jinja2"
+for_pictures="python3-matplotlib python3-h5py"
+for_tests="catch2 libfftw3-dev libsundials-dev hdf5-tools python3-h5py python3-ase python3-matplotlib python3-jinja2
+  python3-pandas python3-pytest"
 
 log=build/do.log
 
@@ -78,10 +79,11 @@ case ${1-} in
     install_missing $for_building $for_pictures
     if present catch2; then tests=ON; else tests=OFF; fi
     build $tests treejet
-    say "== treejet run examples/pvp/input.dat --out results/pvp"
-    build/release/treejet run examples/pvp/input.dat --out results/pvp --force
-    say "== Pictures"
-    /usr/bin/python3 validation/pictures/plot_run.py results/pvp
+    say "== treejet run examples/pvp/input.dat --out results/pvp --set \"print hdf5 2.d-4\""
+    build/release/treejet run examples/pvp/input.dat --out results/pvp --force --set "print hdf5 2.d-4"
+    say "== Pictures, and a page for the browser"
+    build/release/treejet plot results/pvp
+    build/release/treejet view results/pvp
     ;;
   test)
     # shellcheck disable=SC2086  # lists of words

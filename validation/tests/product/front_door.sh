@@ -150,8 +150,8 @@ grep -q 'bead' err && grep -q 'time' err && grep -q 'likely cause' err || fail "
 grep -qi nan stopped/statdat.dat && fail "statdat.dat holds NaN"
 
 # What a run leaves can be drawn, where there is matplotlib.
-if /usr/bin/python3 -c 'import matplotlib' 2>/dev/null; then
-  expect 0 "the pictures of a run" /usr/bin/python3 "$source/validation/pictures/plot_run.py" a --out drawn
+if /usr/bin/python3 -c 'import matplotlib, h5py' 2>/dev/null; then
+  expect 0 "the pictures of a run" "$treejet" plot a --out drawn
   is "pictures of a run" "$(ls drawn | tr '\n' ' ')" "history.png jet.png "
 fi
 
