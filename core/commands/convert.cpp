@@ -23,7 +23,7 @@ std::string convert(const Conversion& c) {
   std::filesystem::path out = c.out;
   if (out.empty()) out = std::filesystem::path(c.from).replace_extension(format->extension);
 
-  const auto writer = format->writer({out, c.existing, program(file.content().made_by)});
+  const auto writer = format->writer({out, c.existing, program(file.content().made_by), file.points()});
   constexpr std::uint64_t at_once = 64;
   for (std::uint64_t i = 0; i < file.frames(); i += at_once)
     for (const Frame& frame : file.frames(i, std::min(at_once, file.frames() - i))) writer->write(frame);

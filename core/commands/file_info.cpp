@@ -158,7 +158,7 @@ std::string text_file(const fs::path& path) {
     if (!columns.empty() && std::all_of(columns.begin(), columns.end(), is_key_with_unit))
       return statistics(path);
   }
-  if (second.starts_with("t = ") || second.starts_with("Properties=id:I:1:species")) return xyz(path);
+  if (second.starts_with("t = ") || second.starts_with("Properties=species:S:1:pos")) return xyz(path);
   if (line.starts_with("frame,t[s],id,")) return csv(path);
   if (second.starts_with("<!DOCTYPE Xdmf")) return xml(path, "XDMF");
   if (line.starts_with("<?xml") && second.starts_with("<!-- treejet")) return xml(path, "VTK");

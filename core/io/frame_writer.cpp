@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 namespace treejet {
@@ -25,21 +26,25 @@ const char* species(const Frame& f, std::size_t point) {
 
 class Xyz : public FrameWriter {
  public:
-  explicit Xyz(const FrameWriterSetting& s) : file_(s.out, s.existing), made_by_(s.made_by) {}
+  explicit Xyz(const FrameWriterSetting& s)
+      : file_(s.out, s.existing), made_by_(s.made_by), most_points_(s.most_points) {}
 
   void write(const Frame& f) override {
     std::string text;
     const auto out = std::back_inserter(text);
-    fmt::format_to(out, "{}\n{}\n", f.points(), comment(f));
+    const std::size_t lines = std::max(f.points(), padded() ? most_points_ : 0);
+    fmt::format_to(out, "{}\n{}\n", lines, comment(f));
     for (std::size_t i = 0; i < f.points(); ++i) {
       put_point(out, f, i);
       text += '\n';
     }
+    for (std::size_t i = f.points(); i < lines; ++i) text += "C 0 0 0\n";
     file_.write(text);
     made_by_.clear();
   }
 
  protected:
+  virtual bool padded() const { return true; }
   virtual std::string comment(const Frame& f) const {
     return fmt::format("t = {} s  beads = {}{}", f.time, f.points(), program());
   }
@@ -53,6 +58,7 @@ class Xyz : public FrameWriter {
  private:
   OutputFile file_;
   std::string made_by_;
+  std::size_t most_points_;
 };
 
 class ExtendedXyz final : public Xyz {
@@ -60,16 +66,21 @@ class ExtendedXyz final : public Xyz {
   using Xyz::Xyz;
 
  private:
+  bool padded() const override { return false; }
   std::string comment(const Frame& f) const override {
-    std::string properties = "id:I:1:species:S:1:pos:R:3";
-    for (std::size_t c = 1; c < frame_columns.size(); ++c)
-      properties += fmt::format(":{}:R:{}", frame_columns[c].name, frame_columns[c].width);
+    std::string properties = "species:S:1";
+    for (std::size_t c = 0; c < frame_columns.size(); ++c)
+      properties += fmt::format(":{}:R:{}{}", names[c], frame_columns[c].width, c == 0 ? ":id:I:1" : "");
     return fmt::format("Properties={} Time={} pbc=\"F F F\" units=\"cm g s statC\"{}", properties, f.time,
                        program());
   }
+  /// Of frame_columns, in its order.
+  static constexpr std::array<const char*, frame_columns.size()> names{
+      "pos", "velo", "tension", "bead_charge", "bead_mass", "jet_radius"};
   void put_point(Out out, const Frame& f, std::size_t i) const override {
-    fmt::format_to(out, "{} {}", f.id[i], species(f, i));
-    put_columns(out, f, i, " ");
+    const auto& r = f.columns[0];
+    fmt::format_to(out, "{} {} {} {} {}", species(f, i), r[3 * i], r[3 * i + 1], r[3 * i + 2], f.id[i]);
+    put_columns(out, f, i, " ", 1);
   }
 };
 
@@ -103,9 +114,10 @@ std::unique_ptr<FrameWriter> made(const FrameWriterSetting& s) {
 
 }  // namespace
 
-const std::array<FrameFormat, 4> frame_formats{{{"xyz", ".xyz", "VMD", made<Xyz>},
-                                                {"extxyz", ".extxyz", "OVITO, ASE", made<ExtendedXyz>},
-                                                {"csv", ".csv", "pandas, gnuplot", made<Csv>},
-                                                {"vtp", ".pvd", "ParaView", vtp_writer}}};
+const std::array<FrameFormat, 4> frame_formats{
+    {{"xyz", ".xyz", "VMD, MDAnalysis", made<Xyz>},
+     {"extxyz", ".extxyz", "OVITO, ASE, chemfiles", made<ExtendedXyz>},
+     {"csv", ".csv", "pandas, gnuplot", made<Csv>},
+     {"vtp", ".pvd", "ParaView", vtp_writer}}};
 
 }  // namespace treejet

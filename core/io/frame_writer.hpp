@@ -2,9 +2,13 @@
 /// Frames in the formats of other tools; what `treejet convert` writes. Lengths stay in cm, all else in CGS,
 /// numbers are written so that reading gives them back to the last bit.
 ///
-///     xyz      lines `C x y z`, as many a frame as there are points
+///     xyz      lines `C x y z`, padded with `C 0 0 0` to the points of the largest frame as print xyz does:
+///     VMD
+///              and MDAnalysis take the number of the first frame for that of all, without a word
 ///
-///     extxyz   extended XYZ: id, species (C a bead, X the nozzle), pos, velocity, stress and so on
+///     extxyz   extended XYZ: species (C a bead, X the nozzle), pos, id, velo, and tension, bead_charge,
+///              bead_mass, jet_radius, names that ASE and OVITO keep as they are: they take stress for the
+///              cell's, mass and charge for the atoms', radius for the size of a ball
 ///
 ///     csv      a header with units, then a row a point: `frame,t[s],id,x[cm],...`
 ///
@@ -29,7 +33,8 @@ class FrameWriter {
 struct FrameWriterSetting {
   std::filesystem::path out;
   OutputFile::Existing existing = OutputFile::Existing::keep;
-  std::string made_by;  ///< a line
+  std::string made_by;            ///< a line
+  std::uint64_t most_points = 0;  ///< of the largest frame
 };
 
 /// Formats, in the order above.

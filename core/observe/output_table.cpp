@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -21,7 +22,11 @@ StatFile::StatFile(OutputFile file, const std::vector<std::string>& keys, const 
     : file_(std::move(file)) {
   if (!file_.is_new()) return;
   std::string header = "#";
-  for (const auto& key : keys) header += fmt::format(" {}", label(key));
+  for (const auto& key : keys) {
+    std::string word = label(key);
+    std::replace(word.begin(), word.end(), ' ', '*');  // one word a column for readers that split at blanks
+    header += " " + word;
+  }
   file_.write(
       fmt::format("{}\n{}## circumstances: {}\n", header, commented(made_by, "## "), run_record_name));
 }

@@ -2,7 +2,11 @@
 """Other people's readers read our files, to the bit.
 
     readers.py make TREEJET DECK DIR   run the deck with print hdf5 and convert its trajectory
-    readers.py READER DIR              h5py, h5dump, ase, vtk, xdmf; exit code 77 where the reader is not installed
+    readers.py READER DIR              h5py, h5dump, ase, vtk, xdmf, numpy, pandas; and of PyPI ovito, MDAnalysis, chemfiles,
+                                       gsd, vtkhdf (VTK 9.3 on); exit code 77 where the reader is not installed
+
+The readers of PyPI are looked for by this Python: `python3 -m venv V; V/bin/pip install h5py numpy ovito MDAnalysis
+chemfiles gsd vtk ase pandas; V/bin/python readers.py ovito DIR`.
 """
 import os
 import subprocess
@@ -18,7 +22,8 @@ def skip(why):
 
 def make(treejet, deck, directory):
     """Long enough for beads to come and to go."""
-    sets = ["final time 6.d-3", "print time 1.d-3", "print hdf5 2.d-4", "collector distance 0.3"]
+    sets = ["final time 6.d-3", "print time 1.d-3", "print hdf5 2.d-4", "collector distance 0.3",
+            "printstat list t x n st vc"]
     words = [word for line in sets for word in ("--set", line)]
     subprocess.run([treejet, "run", deck, "--out", directory, "--quiet", "--force", *words], check=True)
     for kind in ("xyz", "extxyz", "csv", "vtp"):
@@ -85,6 +90,10 @@ def h5dump(directory):
     assert "H5T_STD_I64LE" in out and "DATA" in out
 
 
+# of extended XYZ: name there, name in traj.h5
+renamed = {"velo": "velocity", "tension": "stress", "bead_charge": "charge", "bead_mass": "mass", "jet_radius": "radius", "id": "id"}
+
+
 def ase(directory):
     import numpy as np
     try:
@@ -92,16 +101,162 @@ def ase(directory):
     except ImportError as e:
         skip(e)
     t = Trajectory(directory)
-    for kind in ("extxyz", "xyz"):
-        frames = ase.io.read(directory + "/as-" + kind, index=":", format="extxyz")
+    frames = ase.io.read(directory + "/as-extxyz", index=":", format="extxyz")
+    assert len(frames) == len(t.time)
+    for k, atoms in enumerate(frames):
+        assert np.array_equal(atoms.positions, t.of(k, "position")), k
+        assert atoms.info["Time"] == t.time[k]
+        assert set(atoms.arrays) == {"numbers", "positions", *renamed}
+        for there, here in renamed.items():
+            assert np.array_equal(atoms.arrays[there], t.of(k, here)), (there, k)
+    frames = ase.io.read(directory + "/as-xyz", index=":", format="xyz")
+    assert {len(atoms) for atoms in frames} == {t.points.max()}
+    for k, atoms in enumerate(frames):
+        check_padded(atoms.positions, t, k, 0)
+
+
+def check_padded(positions, t, k, tolerance):
+    import numpy as np
+    n = t.points[k]
+    assert len(positions) == t.points.max() and not positions[n:].any(), k
+    assert np.allclose(positions[:n], t.of(k, "position"), rtol=tolerance, atol=0), k
+
+
+def ovito(directory):
+    import numpy as np
+    try:
+        from ovito.io import import_file
+    except ImportError as e:
+        skip(e)
+    t = Trajectory(directory)
+    for file in ("as-extxyz", "traj.gsd"):
+        if not os.path.exists(directory + "/" + file):
+            continue
+        pipeline = import_file(directory + "/" + file)
+        assert pipeline.source.num_frames == len(t.time), file
+        for k in range(len(t.time)):
+            found = pipeline.compute(k).particles
+            assert found.count == t.points[k], (file, k)
+            single = file == "traj.gsd"
+            assert np.allclose(found.positions[...], t.of(k, "position"), rtol=2e-7 if single else 0, atol=0)
+            if single:
+                assert found.bonds.count == t.points[k] - 1
+                continue
+            assert not any(word in found for word in ("Radius", "Mass", "Charge", "Stress Tensor")), list(found)
+            for there, here in renamed.items():
+                name = {"velo": "Velocity", "id": "Particle Identifier"}.get(there, there)
+                assert np.array_equal(found[name][...], t.of(k, here)), (there, k)
+
+
+def MDAnalysis(directory):
+    import numpy as np
+    try:
+        import MDAnalysis
+    except ImportError as e:
+        skip(e)
+    t = Trajectory(directory)
+    universe = MDAnalysis.Universe(directory + "/as-xyz", format="XYZ")
+    assert len(universe.trajectory) == len(t.time) and len(universe.atoms) == t.points.max()
+    for k, frame in enumerate(universe.trajectory):
+        check_padded(frame.positions, t, k, 2e-7)  # single precision
+
+
+def chemfiles(directory):
+    import numpy as np
+    try:
+        import chemfiles
+    except ImportError as e:
+        skip(e)
+    t = Trajectory(directory)
+    with chemfiles.Trajectory(directory + "/as-extxyz", "r", "XYZ") as frames:
+        assert frames.nsteps == len(t.time)
+        for k in range(len(t.time)):
+            frame = frames.read()
+            assert np.array_equal(frame.positions, t.of(k, "position")), k
+            for there, here in renamed.items():
+                found = np.array([atom[there] for atom in frame.atoms])
+                assert np.array_equal(found, t.of(k, here)), (there, k)
+
+
+def gsd(directory):
+    import numpy as np
+    try:
+        import gsd.hoomd
+    except ImportError as e:
+        skip(e)
+    t = Trajectory(directory)
+    export(directory, "gsd")
+    with gsd.hoomd.open(directory + "/traj.gsd") as frames:
         assert len(frames) == len(t.time)
-        for k, atoms in enumerate(frames):
-            assert np.array_equal(atoms.positions, t.of(k, "position")), (kind, k)
-            if kind == "extxyz":
-                assert atoms.info["Time"] == t.time[k]
-                assert np.array_equal(atoms.arrays["id"], t.of(k, "id"))
-                assert np.array_equal(atoms.arrays["velocity"], t.of(k, "velocity"))
-                assert np.array_equal(atoms.arrays["radius"], t.of(k, "radius"))
+        for k, frame in enumerate(frames):
+            n = t.points[k]
+            assert frame.particles.N == n and frame.bonds.N == n - 1 and frame.log["time"][0] == t.time[k]
+            for there, here, factor in (("position", "position", 1), ("velocity", "velocity", 1), ("charge", "charge", 1),
+                                        ("mass", "mass", 1), ("diameter", "radius", 2)):
+                # single precision
+                assert np.allclose(getattr(frame.particles, there), factor * t.of(k, here), rtol=2e-7, atol=0), (there, k)
+            assert np.array_equal(frame.log["particles/stress"], t.of(k, "stress"))
+            assert np.array_equal(frame.log["particles/id"], t.of(k, "id"))
+            assert frame.bonds.group[:, 1].tolist() == list(range(1, n)) and frame.particles.typeid[-1] == 1
+
+
+def export(directory, to):
+    """By the package of the checkout, in this Python, which has the library."""
+    from pathlib import Path
+    sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "python"))
+    import treejet
+    from treejet.export import export as write
+    write(treejet.read(directory), to, force=True)
+
+
+def vtkhdf(directory):
+    import numpy as np
+    try:
+        from vtkmodules.vtkIOHDF import vtkHDFReader
+        from vtkmodules.vtkCommonCore import vtkVersion
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+    except ImportError as e:
+        skip(e)
+    if (vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersion()) < (9, 3):
+        skip("polylines over time need VTK 9.3, here is " + vtkVersion.GetVTKVersion())
+    t = Trajectory(directory)
+    export(directory, "vtkhdf")
+    reader = vtkHDFReader()
+    reader.SetFileName(directory + "/traj.vtkhdf")
+    reader.UpdateInformation()
+    assert reader.GetNumberOfSteps() == len(t.time)
+    for k in range(len(t.time)):
+        reader.SetStep(k)
+        reader.Update()
+        jet = reader.GetOutputDataObject(0)
+        assert reader.GetTimeValue() == t.time[k]
+        assert jet.GetNumberOfLines() == 1 and jet.GetNumberOfCells() == 1 and jet.GetCell(0).GetNumberOfPoints() == t.points[k]
+        assert np.array_equal(vtk_to_numpy(jet.GetPoints().GetData()), t.of(k, "position"))
+        check_point_data(jet.GetPointData(), t, k, lambda name: name)
+
+
+def numpy(directory):
+    """The table of statdat.dat by the two readers people use, with its header."""
+    import numpy as np
+    t = Trajectory(directory)
+    rows = np.genfromtxt(directory + "/statdat.dat", names=True)
+    assert len(rows.dtype.names) == 5 and [name[0] for name in rows.dtype.names] == list("txnsv")
+    assert np.array_equal(rows[rows.dtype.names[1]], t.file["observables/x/value"])
+
+
+def pandas(directory):
+    try:
+        import pandas
+    except ImportError as e:
+        skip(e)
+    t = Trajectory(directory)
+    with open(directory + "/statdat.dat") as file:
+        names = file.readline().lstrip("#").split()
+    table = pandas.read_csv(directory + "/statdat.dat", sep=r"\s+", comment="#", names=names)
+    assert list(table) == ["t[s]", "x[cm]", "n[1]", "st[g/(cm*s^2)]", "vc[cm/s]"]
+    assert list(table["x[cm]"]) == list(t.file["observables/x/value"])
+    points = pandas.read_csv(directory + "/as-csv")
+    assert list(points.groupby("frame").size()) == list(t.points)
 
 
 def check_point_data(data, t, k, name_of):
@@ -164,5 +319,6 @@ if __name__ == "__main__":
     if sys.argv[1] == "make":
         make(*sys.argv[2:])
     else:
-        {"h5py": h5py, "h5dump": h5dump, "ase": ase, "vtk": vtk, "xdmf": xdmf}[sys.argv[1]](sys.argv[2])
+        known = (h5py, h5dump, ase, vtk, xdmf, ovito, MDAnalysis, chemfiles, gsd, vtkhdf, numpy, pandas)
+        {reader.__name__: reader for reader in known}[sys.argv[1]](sys.argv[2])
     print("read")
