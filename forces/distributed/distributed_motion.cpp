@@ -68,7 +68,7 @@ void DistributedMotion::repel(Rows own, State<3>& slope) {
     field[index(k)] = field_.col(k).data();
   }
   if (points > 0) piece.q = chain.point_charge.data() + first_;
-  solver_->field(piece, field, worthwhile(threads_, points));
+  solver_->field(piece, {0, points}, field, worthwhile(threads_, points));
   for (int k = 0; k < 3 && points > 0; ++k)
     slope.col(velocity_column<3> + k).segment(own.first, own.size()) +=
         Q_ * chain.point_charge.segment(first_, own.size()) * chain.inverse_mass.segment(first_, own.size()) *

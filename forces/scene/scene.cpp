@@ -72,7 +72,7 @@ class Composer {
     return std::make_unique<HerschelBulkley<D>>(p_.yield_stress / s.stress, K, p_.hb_index);
   }
 
-  std::vector<std::unique_ptr<ForceTerm<D>>> terms() {
+  std::vector<std::unique_ptr<ForceTerm<D>>> local_terms() {
     add(
         true, "", [&] { return std::make_unique<Viscoelastic<D>>(g_.L_step, g_.F_ve); },
         "viscoelastic force");
@@ -97,13 +97,22 @@ class Composer {
         p_.self_field == SelfField::slender && g_.Q != 0,
         g_.Q == 0 ? "density charge is 0" : "self field point",
         [&] { return std::make_unique<SlenderSelfField<D>>(g_.Q, section()); }, "slender self-field");
+    return std::move(terms_);
+  }
+
+  /// Null without charge, or where the subdomains' own solver adds it.
+  std::unique_ptr<CoulombForce<D>> coulomb() {
     if (in_pieces()) {
       note(g_.Q != 0, "Coulomb sum of all pieces", "parallel distributed", "density charge is 0");
-    } else {
-      add(
-          g_.Q != 0, "density charge is 0", [&] { return coulomb(); }, "Coulomb sum");
+      return nullptr;
     }
-    return std::move(terms_);
+    if (g_.Q == 0) {
+      left_out.push_back({"Coulomb sum", "density charge is 0"});
+      return nullptr;
+    }
+    auto force = std::make_unique<CoulombForce<D>>(g_.Q, field_solver());
+    composed.push_back({std::string(force->name()), "named by the deck"});
+    return force;
   }
 
   void boundaries() {
@@ -134,9 +143,13 @@ class Composer {
  private:
   Section section() const { return {p_.nozzle_cross / scales(p_).length, g_.L_step}; }
 
-  std::unique_ptr<CoulombForce<D>> coulomb() {
-    if (p_.coulomb == CoulombSum::direct) return std::make_unique<CoulombForce<D>>(g_.Q, reach(p_), ranks_);
-    return std::make_unique<CoulombForce<D>>(g_.Q, coulomb_request(p_, /*points_move*/ true), ranks_);
+  /// A straight jet has no tree (core/deck/constraints.cpp).
+  std::unique_ptr<FieldSolver<D>> field_solver() {
+    if constexpr (D == 3)
+      if (p_.coulomb != CoulombSum::direct)
+        return std::make_unique<CoulombSolver>(coulomb_request(p_, /*points_move*/ true), default_isa(),
+                                               ranks_);
+    return std::make_unique<DirectSum<D>>(reach(p_), ranks_);
   }
 
   template <class Make>
@@ -179,13 +192,15 @@ template <int D>
 Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks) {
   Composer<D> composer(p, ranks);
   auto law = composer.stress_law();
-  auto terms = composer.terms();
+  auto local_terms = composer.local_terms();
+  auto coulomb = composer.coulomb();
   composer.boundaries();
   const Nozzle<D> nozzle(p);
   const std::vector<int> beads = composer.in_pieces() ? std::vector<int>() : whole_jet(p);
   Scene<D> scene{
       initial_jet<D>(p, beads), nozzle, Collector(p), nullptr, nullptr, nullptr, nullptr, nullptr, {}, {}};
-  scene.motion = std::make_unique<EquationsOfMotion<D>>(nozzle, std::move(law), std::move(terms), threads);
+  scene.motion = std::make_unique<EquationsOfMotion<D>>(nozzle, std::move(law), std::move(local_terms),
+                                                        std::move(coulomb), threads);
   if (composer.multirate())
     scene.multirate = std::make_unique<MultirateMotion<D>>(*scene.motion, ErrorNorm(p));
   if constexpr (D == 3)

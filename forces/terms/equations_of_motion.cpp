@@ -10,15 +10,13 @@ constexpr int block = 16;  // rows; the width of the Coulomb kernels' target blo
 
 template <int D>
 EquationsOfMotion<D>::EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<StressLaw<D>> stress_law,
-                                        std::vector<std::unique_ptr<ForceTerm<D>>> terms, Threads threads)
+                                        std::vector<std::unique_ptr<ForceTerm<D>>> local_terms,
+                                        std::unique_ptr<CoulombForce<D>> coulomb, Threads threads)
     : nozzle_(std::move(nozzle)),
       stress_law_(std::move(stress_law)),
-      terms_(std::move(terms)),
-      threads_(threads) {
-  for (auto& term : terms_) {
-    if (auto* coulomb = dynamic_cast<CoulombForce<D>*>(term.get())) coulomb_ = coulomb;
-  }
-}
+      local_terms_(std::move(local_terms)),
+      coulomb_(std::move(coulomb)),
+      threads_(threads) {}
 
 template <int D>
 void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) {
@@ -62,13 +60,12 @@ void EquationsOfMotion<D>::differentiate(const Jet<D>& jet, double t, const Stat
         (inverse * (chain_.velocity(i) - chain_.velocity_above(i)) - 2 * chain_.strain_rate[i] * tangent);
     e.rate_by_stress = -1;
   }
-  for (const auto& term : terms_) term->differentiate(chain_, J);
+  for (const auto& term : local_terms_) term->differentiate(chain_, J);
 }
 
 template <int D>
 void EquationsOfMotion<D>::prepare(const Chain<D>& chain, Rows rows, Threads threads) {
-  for (auto& term : terms_)
-    if (term.get() != coulomb_) term->prepare(chain, rows, threads);
+  for (auto& term : local_terms_) term->prepare(chain, rows, threads);
 }
 
 template <int D>
@@ -83,9 +80,7 @@ void EquationsOfMotion<D>::set_local(const Chain<D>& chain, Rows rows, State<D>&
     column_rates_[k]->set(chain, added, rows, slope.col(own_columns<D> + added));
   }
   Acceleration<D> acceleration = slope.template middleCols<D>(velocity_column<D>);
-  for (auto& term : terms_) {
-    if (term.get() != coulomb_) term->add(chain, rows, acceleration);
-  }
+  for (auto& term : local_terms_) term->add(chain, rows, acceleration);
 }
 
 template class EquationsOfMotion<1>;

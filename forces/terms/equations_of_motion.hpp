@@ -1,6 +1,7 @@
 #pragma once
-/// The equations of motion: the terms that a scene names, summed. The right-hand sides of multirate and of a
-/// jet in subdomains stand on this one.
+/// The equations of motion: the terms that a scene names, summed: the local ones, each of a bead and its
+/// neighbours, and the Coulomb force, which couples all beads. The right-hand sides of multirate and of a jet in
+/// subdomains stand on this one.
 ///
 ///     dr_i/dt = v_i ,    m_i dv_i/dt = sum of the force terms ,    d sigma_i/dt = constitutive equation .
 ///
@@ -24,7 +25,8 @@ template <int D>
 class EquationsOfMotion final : public RightHandSide<D> {
  public:
   EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<StressLaw<D>> stress_law,
-                    std::vector<std::unique_ptr<ForceTerm<D>>> terms, Threads threads);
+                    std::vector<std::unique_ptr<ForceTerm<D>>> local_terms,
+                    std::unique_ptr<CoulombForce<D>> coulomb, Threads threads);
 
   void operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) override;
 
@@ -43,19 +45,19 @@ class EquationsOfMotion final : public RightHandSide<D> {
   void add_column(std::unique_ptr<ColumnRate<D>> rate) { column_rates_.push_back(std::move(rate)); }
 
   /// The Coulomb force, null in a scene without charge, and the chain, both as the last evaluation left them.
-  const CoulombForce<D>* coulomb() const { return coulomb_; }
+  const CoulombForce<D>* coulomb() const { return coulomb_.get(); }
   const Chain<D>& chain() const { return chain_; }
 
   const Nozzle<D>& nozzle() const { return nozzle_; }
   const StressLaw<D>& stress_law() const { return *stress_law_; }
-  const std::vector<std::unique_ptr<ForceTerm<D>>>& terms() const { return terms_; }
+  const std::vector<std::unique_ptr<ForceTerm<D>>>& local_terms() const { return local_terms_; }
 
  private:
   Nozzle<D> nozzle_;
   std::unique_ptr<StressLaw<D>> stress_law_;
-  std::vector<std::unique_ptr<ForceTerm<D>>> terms_;
+  std::vector<std::unique_ptr<ForceTerm<D>>> local_terms_;
   std::vector<std::unique_ptr<ColumnRate<D>>> column_rates_;
-  CoulombForce<D>* coulomb_ = nullptr;  ///< one of the terms
+  std::unique_ptr<CoulombForce<D>> coulomb_;
   Threads threads_;
   Chain<D> chain_;
 };

@@ -105,11 +105,11 @@ DistributedMeasurement measure(const DistributedRun& run, const Ranks& ranks) {
   const double before = peak_bytes();
   DistributedSolver solver(
       {.method = CoulombMethod::tree, .accuracy = run.accuracy, .measured_every = 1'000'000}, ranks);
-  solver.field(own.view(), field.view(), {run.threads});  // chooses the shape
+  solver.field(own.view(), {0, own.size()}, field.view(), {run.threads});  // chooses the shape
   double seconds = 1e300;
   for (int k = 0; k < run.evaluations; ++k) {
     const auto begin = std::chrono::steady_clock::now();
-    solver.field(own.view(), field.view(), {run.threads});
+    solver.field(own.view(), {0, own.size()}, field.view(), {run.threads});
     seconds =
         std::min(seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }

@@ -36,9 +36,17 @@ Jet<D> jet_of(const std::vector<Bead<D>>& beads) {
 /// The equations of motion with exactly these force terms.
 template <int D, class... Terms>
 EquationsOfMotion<D> equations(const Parameters& p, Terms... terms) {
-  std::vector<std::unique_ptr<ForceTerm<D>>> all;
-  (all.push_back(std::make_unique<Terms>(std::move(terms))), ...);
-  return EquationsOfMotion<D>(Nozzle<D>(p), std::make_unique<Maxwell<D>>(), std::move(all), Threads{1});
+  std::vector<std::unique_ptr<ForceTerm<D>>> local;
+  std::unique_ptr<CoulombForce<D>> coulomb;
+  [[maybe_unused]] const auto take = [&]<class Term>(Term& term) {
+    if constexpr (std::is_same_v<Term, CoulombForce<D>>)
+      coulomb = std::make_unique<Term>(std::move(term));
+    else
+      local.push_back(std::make_unique<Term>(std::move(term)));
+  };
+  (take(terms), ...);
+  return EquationsOfMotion<D>(Nozzle<D>(p), std::make_unique<Maxwell<D>>(), std::move(local),
+                              std::move(coulomb), Threads{1});
 }
 
 template <int D>

@@ -25,17 +25,19 @@ TreeShape all_pairs() {
 }  // namespace
 
 DistributedSolver::DistributedSolver(const CoulombRequest& request, const Ranks& ranks, Isa isa)
-    : request_(request), ranks_(ranks), isa_(isa), pieces_(ranks, isa), upkeep_(request.measured_every) {
+    : request_(request), ranks_(ranks), isa_(isa), pieces_(ranks, isa), policy_(request.measured_every) {
   require_valid(request);
   report_.error.asked = request.accuracy;
 }
 
-void DistributedSolver::field(const PointCharges<3>& piece, const FieldArrays<3>& field, Threads threads) {
+void DistributedSolver::field(const PointCharges<3>& piece, Rows rows, const FieldArrays<3>& field,
+                              Threads threads) {
   arrange(piece, threads);
   report_.interactions = pieces_.evaluate(threads);
   pieces_.give(field);
   bool finite = true;
-  for (int i = 0; i < piece.n; ++i) finite = finite && std::isfinite(field[0][i] + field[1][i] + field[2][i]);
+  for (int i = rows.first; i < rows.last; ++i)
+    finite = finite && std::isfinite(field[0][i] + field[1][i] + field[2][i]);
   if (ranks_.greatest(finite ? 0 : 1) > 0)
     throw NumericalError("two points are at one place, or a coordinate is not finite");
 }
@@ -45,10 +47,10 @@ void DistributedSolver::arrange(const PointCharges<3>& piece, Threads threads) {
   ranks_.sum(sums);
   const int n = static_cast<int>(sums[0]);
   const bool other_pieces = sums[1] > 0;
-  if (upkeep_.tuning_due(n, report_.direct)) return choose(piece, n, threads);
+  if (policy_.tuning_due(n, report_.direct)) return choose(piece, n, threads);
   if (report_.direct) return pieces_.arrange(piece, report_.shape, threads);
   const double sample_pairs = double(sampled_points_of_pieces) * n / ranks_.size();
-  const auto due = upkeep_.at_evaluation(n, report_.work, sample_pairs, other_pieces);
+  const auto due = policy_.at_evaluation(n, report_.work, sample_pairs, other_pieces);
   pieces_.arrange(piece, report_.shape, threads, /*keep_order*/ !due.sort);
   if (due.measurement && !keeps(piece, n, threads)) choose(piece, n, threads);
 }
@@ -61,7 +63,7 @@ bool DistributedSolver::cut_anew(int n) const {
 
 bool DistributedSolver::keeps(const PointCharges<3>& piece, int n, Threads threads) {
   const DistributedSample sample(pieces_, ranks_, isa_, threads);
-  upkeep_.measured(n);
+  policy_.measured(n);
   measured_piece_ = piece.n;
   return keeps_accuracy(
       report_, request_, [&] { return sample.error(pieces_, threads); },
@@ -89,7 +91,7 @@ void DistributedSolver::choose(const PointCharges<3>& piece, int n, Threads thre
   if (report_.direct) report_.shape = all_pairs();
   report_.error.method = description(report_);
   ++report_.error.choices;
-  upkeep_.chosen(n);
+  policy_.chosen(n);
   measured_piece_ = piece.n;
   pieces_ = DistributedTreeField(ranks_, isa_);  // what was seen at other shapes may have taken more room
   pieces_.arrange(piece, report_.shape, threads);
@@ -103,7 +105,7 @@ void DistributedSolver::choose_order_of_points(const PointCharges<3>& piece, int
   constexpr double long_piece = 4096;
   double least = std::numeric_limits<double>::infinity();
   TreeShape tried = shape;
-  tried.even = false;  // as in coulomb_calibration.cpp
+  tried.even = false;  // as in autotune.cpp
   for (int block : {0, 16, 4, 1}) {
     if (request_.space && *request_.space != (block > 0)) continue;
     tried.block = block;

@@ -3,12 +3,12 @@
 /// CoulombSolver is for TreeField.
 ///
 ///     DistributedSolver coulomb({.accuracy = 1e-5}, ranks);
-///     coulomb.field(piece, field, threads);         called by all ranks, each with its own piece
+///     coulomb.field(subdomain, rows, field, threads);     called by all ranks, each with its own subdomain
 ///
 /// `accuracy` is the relative L2 error of the field over all pieces. It is measured, not assumed: at sampled
 /// leaves of all pieces against exact sums, to which every rank adds what its own points do, with the same
 /// allowances as in coulomb_solver.hpp; again when the number of points has changed by a twentieth or the
-/// chain has been cut anew, and so often that it takes measuring_share (tree_upkeep.hpp) of the work. All
+/// chain has been cut anew, and so often that it takes measuring_share (rebuild_policy.hpp) of the work. All
 /// ranks learn the same figures and take the same decisions, none of them from a clock.
 ///
 /// Below the crossover, or where no tree is as accurate, the sum is direct: every rank is then sent all
@@ -25,15 +25,19 @@ namespace treejet {
 
 class DistributedSample;
 
-class DistributedSolver {
+class DistributedSolver final : public FieldSolver<3> {
  public:
   /// InputError for an accuracy or a pinned value out of range.
   DistributedSolver(const CoulombRequest& request, const Ranks& ranks, Isa isa = default_isa());
 
-  void field(const PointCharges<3>& piece, const FieldArrays<3>& field, Threads threads);
+  /// `rows` are all points of the subdomain.
+  void field(const PointCharges<3>& subdomain, Rows rows, const FieldArrays<3>& field,
+             Threads threads) override;
 
   /// Its interactions are those of this rank; its work is that of the rank with the most.
-  const CoulombReport& report() const { return report_; }
+  const CoulombReport& report() const override { return report_; }
+  void visit(Archive& state) override { state(report_, policy_, measured_piece_); }
+
   const DistributedTreeField& pieces() const { return pieces_; }
 
  private:
@@ -51,7 +55,7 @@ class DistributedSolver {
   Isa isa_;
   DistributedTreeField pieces_;
   CoulombReport report_;
-  RebuildPolicy upkeep_;
+  RebuildPolicy policy_;
   int measured_piece_ = 0;  ///< points of this piece at the last measurement
 };
 

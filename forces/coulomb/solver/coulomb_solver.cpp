@@ -58,7 +58,7 @@ void require_valid(const CoulombRequest& request) {
 }
 
 CoulombSolver::CoulombSolver(const CoulombRequest& request, Isa isa, const Ranks& ranks)
-    : request_(request), isa_(isa), ranks_(ranks), tree_(isa, ranks), upkeep_(request.measured_every) {
+    : request_(request), isa_(isa), ranks_(ranks), tree_(isa, ranks), policy_(request.measured_every) {
   require_valid(request);
   report_.error.asked = request.accuracy;
 }
@@ -86,16 +86,16 @@ void CoulombSolver::field(const PointCharges<3>& points, Rows rows, const FieldA
 void CoulombSolver::decide(const PointCharges<3>& points, Threads threads) {
   if (request_.method == CoulombMethod::direct || points.n < 2) return;
   const int n = points.n;
-  if (upkeep_.tuning_due(n, report_.direct)) return choose(points, threads);
+  if (policy_.tuning_due(n, report_.direct)) return choose(points, threads);
   if (report_.direct) return;
-  const auto due = upkeep_.at_evaluation(n, report_.work, double(sampled_points(n)) * n);
+  const auto due = policy_.at_evaluation(n, report_.work, double(sampled_points(n)) * n);
   tree_.arrange(points, report_.shape, threads, /*keep_order*/ !due.sort);
   if (due.measurement && !keeps(points, threads)) choose(points, threads);
 }
 
 bool CoulombSolver::keeps(const PointCharges<3>& points, Threads threads) {
   CoulombSample sample(points.n, tree_, threads);
-  upkeep_.measured(points.n);
+  policy_.measured(points.n);
   return keeps_accuracy(
       report_, request_, [&] { return sample.error(tree_, threads); },
       [&](double opening) { tree_.reshape(report_.shape.order, opening, threads); });
@@ -121,7 +121,7 @@ void CoulombSolver::choose(const PointCharges<3>& points, Threads threads) {
   if (!choice.direct) report_.record(choice.error);
   report_.error.method = description(report_);
   ++report_.error.choices;
-  upkeep_.chosen(points.n);
+  policy_.chosen(points.n);
   if (!choice.direct && request_.points_move) keeps(points, threads);
 }
 

@@ -6,14 +6,14 @@
 ///     coulomb.report()                                  what was chosen, and the error expected
 ///
 /// `accuracy` is the relative L2 error of the field, sqrt(sum |E - E_direct|^2 / sum |E|^2). The shape of the
-/// tree (kind, order, opening, leaf) is chosen by the program (coulomb_calibration.hpp) unless pinned.
+/// tree (kind, order, opening, leaf) is chosen by the program (autotune.hpp) unless pinned.
 ///
 /// How the promise is kept: errors are measured, not bounded, because neighbours on a chain cancel and
 /// amplify every error 10 to 100 times. A shape is taken only if the errors of sampled leaves against direct
 /// summation, with an allowance for the spread between leaves, stay below the accuracy. A sample speaks for
 /// all because cells are made to err alike (cells.hpp): with one opening for all, a few where points crowd
 /// hold most of the error. The measurement is repeated when the number of points has changed by a twentieth,
-/// and so often that it takes measuring_share (tree_upkeep.hpp) of the work; if it fails, the opening is
+/// and so often that it takes measuring_share (rebuild_policy.hpp) of the work; if it fails, the opening is
 /// narrowed, or if that does not help the shape is chosen anew, as it is when the number of points has
 /// changed by half. If no shape is accurate enough, or none is expected to be faster, the sum is direct, and
 /// the report says so.
@@ -26,8 +26,7 @@
 #include <optional>
 #include <string>
 
-#include "core/base/field_error_report.hpp"
-#include "forces/coulomb/coulomb.hpp"
+#include "forces/coulomb/solver/field_solver.hpp"
 #include "forces/coulomb/solver/rebuild_policy.hpp"
 #include "forces/coulomb/tree/tree_field.hpp"
 
@@ -54,36 +53,6 @@ struct CoulombRequest {
 /// InputError for an accuracy that is not positive or a pinned value out of range.
 void require_valid(const CoulombRequest& request);
 
-/// The error of the field on sampled leaves, relative to the root mean square of the field over all points
-/// but the hundredth with the strongest field: in a cloud a few close pairs may hold most of it, and the
-/// promise is to hold for a sample without them as well.
-struct SampledError {
-  double l2 = 0, max = 0;  ///< root mean square and largest over the sample
-  double bound = 0;        ///< upper estimate of the l2 of all points
-};
-
-struct CoulombReport {
-  bool direct = true;
-  std::string reason = "asked for";  ///< why direct, or how the shape was found
-  TreeShape shape;                   ///< of the tree, if not direct
-  double expected_error = 0;         ///< upper estimate for all points, as last measured; 0 for direct
-  double work = 0;                   ///< price of an evaluation, in direct pairs, when the shape was chosen
-  FieldErrorReport error;            ///< measured on the sample
-  int coincident = 0;                ///< points of the last evaluation that share their place with another
-  Interactions interactions;         ///< of the last evaluation
-
-  /// Takes in a measurement of the present shape.
-  void record(const SampledError& error);
-
-  void visit(Archive& state) {
-    state(direct, reason, shape, expected_error, work, error, coincident, interactions);
-  }
-};
-
-/// "tree of order 5, opening 0.42, leaves of 32, chain, near field single, expected error 8.9e-06 (cheapest
-/// accurate shape)", "direct sum (asked for)".
-std::string description(const CoulombReport& report);
-
 /// Whether the shape last reported is accurate enough still, or becomes so by a somewhat narrower opening,
 /// which costs less than a search. `measure` measures the present shape, `reopen` changes its opening.
 ///
@@ -109,19 +78,22 @@ bool keeps_accuracy(CoulombReport& report, const CoulombRequest& request, Measur
   return report.expected_error <= request.accuracy || (request.order && request.opening);
 }
 
-class CoulombSolver {
+class CoulombSolver final : public FieldSolver<3> {
  public:
   /// InputError for a request that is not valid.
   explicit CoulombSolver(const CoulombRequest& request, Isa isa = default_isa(), const Ranks& ranks = {});
 
-  /// Sets the field of `rows`, and the potential if there is a place for it: the same on all ranks.
+  void field(const PointCharges<3>& points, Rows rows, const FieldArrays<3>& field,
+             Threads threads) override {
+    this->field(points, rows, field, threads, nullptr);
+  }
+  /// The field, and the potential if there is a place for it: the same on all ranks.
   void field(const PointCharges<3>& points, Rows rows, const FieldArrays<3>& field, Threads threads,
-             double* potential = nullptr);
+             double* potential);
 
-  const CoulombReport& report() const { return report_; }
+  const CoulombReport& report() const override { return report_; }
 
-  /// What the next decisions are made from.
-  void visit(Archive& state) { state(tree_, report_, upkeep_); }
+  void visit(Archive& state) override { state(tree_, report_, policy_); }
 
  private:
   void decide(const PointCharges<3>& points, Threads threads);
@@ -133,7 +105,7 @@ class CoulombSolver {
   Ranks ranks_;
   TreeField tree_;
   CoulombReport report_;
-  RebuildPolicy upkeep_;
+  RebuildPolicy policy_;
 };
 
 }  // namespace treejet

@@ -362,8 +362,11 @@ TEST_CASE("Pinned values are kept, and values out of range refused") {
   CHECK(shape.leaf == 48);
   CHECK(shape.block > 0);
 
-  request.leaf = 20;
-  CHECK_THROWS_AS(CoulombSolver(request), InputError);
+  // no whole registers; more than a sample of leaves could hold; beyond the products of 32 bits
+  for (int leaf : {20, 0, -16, 2048, 65536, 2147483632}) {
+    request.leaf = leaf;
+    CHECK_THROWS_AS(CoulombSolver(request), InputError);
+  }
   request.leaf = 32;
   request.order = 15;
   CHECK_THROWS_AS(CoulombSolver(request), InputError);

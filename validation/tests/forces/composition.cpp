@@ -16,7 +16,8 @@ using Names = std::set<std::string>;
 template <int D>
 Names terms(const Scene<D>& scene) {
   Names names;
-  for (const auto& term : scene.motion->terms()) names.emplace(term->name());
+  for (const auto& term : scene.motion->local_terms()) names.emplace(term->name());
+  if (scene.motion->coulomb()) names.emplace(scene.motion->coulomb()->name());
   return names;
 }
 

@@ -113,7 +113,7 @@ template <int D>
 void check_jacobian(std::unique_ptr<StressLaw<D>> law) {
   std::vector<std::unique_ptr<ForceTerm<D>>> terms;
   terms.push_back(std::make_unique<Viscoelastic<D>>(1, 3));
-  EquationsOfMotion<D> f(Nozzle<D>(circling_nozzle()), std::move(law), std::move(terms), Threads{1});
+  EquationsOfMotion<D> f(Nozzle<D>(circling_nozzle()), std::move(law), std::move(terms), nullptr, Threads{1});
   for (int n : {1, 2, 7}) {
     for (bool held : {false, true}) {
       Jet<D> jet = crooked_jet<D>(n, 3);
