@@ -123,7 +123,12 @@ class Composer {
 
   bool in_pieces() const { return p_.parallel == ParallelData::distributed; }
 
-  /// Two rates need an error to hold, and a sum over all pairs to take apart.
+  /// Whether the stress law has all derivatives where an element turns from stretching to shrinking. A yield
+  /// stress jumps there and a power of the strain rate has a kink or a pole in a derivative.
+  bool smooth_stress() const { return p_.yield_stress == 0 && (!p_.hbfluid || p_.hb_index == 1); }
+
+  /// Multirate needs an error to hold, a sum over all pairs to take apart, and slopes that a parabola can
+  /// continue in time.
   bool multirate() {
     const char* why_not =
         !p_.tolerance                            ? "a fixed timestep has no error to hold"
@@ -132,6 +137,7 @@ class Composer {
         : properties(chosen_scheme(p_)).implicit ? "a scheme that solves for the local terms"
         : g_.Q == 0                              ? "no Coulomb sum"
         : in_pieces()                            ? "parallel distributed"
+        : !smooth_stress()                       ? "the stress law has a kink or a jump at strain rate 0"
         : stiffness(p_).relaxes_between_beads()  ? "stress relaxes within the interval of beads"
                                                  : nullptr;
     note(!why_not, "two rates", "multirate auto", why_not);

@@ -189,10 +189,10 @@ done
 expect 4 "info of a foreign file" "$treejet" info "$source/README.md"
 
 # Five beads without successors: all arrive, and the run says when.
-expect 0 "a run whose beads all leave" "$treejet" run "$pvp" --out left --set "inserting no" --set "points 5" --set "initial length 0.1" --set "final time 0.05" --set "print time 5.d-3" --set "printstat list t n chc q" --set "print list t vc"
+expect 0 "a run whose beads all leave" "$treejet" run "$pvp" --out early --set "inserting no" --set "points 5" --set "initial length 0.1" --set "final time 0.05" --set "print time 5.d-3" --set "printstat list t n chc q" --set "print list t vc"
 grep -q '^the jet has left at t = 0.0182' out || fail "the summary does not tell that the jet has left: $(cat out)"
 grep -q '^ *0 *-$' out || fail "the terminal shows no dash for a window without arrivals"
-is "beads in all rows together" "$(awk '!/^#/ {sum += $3; if ($4 > q) q = $4} END {print sum / q}' left/statdat.dat)" 5
+is "beads in all rows together" "$(awk '!/^#/ {sum += $3; if ($4 > q) q = $4} END {print sum / q}' early/statdat.dat)" 5
 
 expect 0 "check" "$treejet" check "$pvp"
 grep -q 'surface tension' out || fail "check does not tell what is composed"
