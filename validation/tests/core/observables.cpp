@@ -123,9 +123,9 @@ TEST_CASE("The mean path of a whipping jet does not depend on how its steps lie 
     return recorded<3>(run, {"lp"}, 1e-3, 4e-3);
   };
   const auto coarse = path(1e-6), fine = path(1e-9);
-  // position itself is off by 3e-6 of the path at tolerance 1e-6, the trapezoidal rule over the steps
-  // by 1.7e-4
-  for (std::size_t k = 1; k < fine.size(); ++k) CHECK(coarse[k][0] == Approx(fine[k][0]).epsilon(1e-5));
+  // the solution itself is off by up to 6e-7 of the path; the trapezoidal rule over the steps was by 4e-6 to
+  // 1.7e-5
+  for (std::size_t k = 1; k < fine.size(); ++k) CHECK(coarse[k][0] == Approx(fine[k][0]).epsilon(2e-6));
 }
 
 namespace {
