@@ -19,12 +19,12 @@ struct Logarithm {
   double value, slope;
 };
 
-Logarithm limited(double g) {
+[[gnu::always_inline]] inline Logarithm limited(double g) {
   const double tail = wide_exp(-sharpness * std::abs(g)), over = 1 / (1 + tail);
-  return {std::max(g, 0.0) + wide_log(1 + tail) / sharpness, g > 0 ? over : tail * over};
+  return {(g + std::abs(g)) / 2 + wide_log(1 + tail) / sharpness, g > 0 ? over : tail * over};
 }
 
-double plain_g(double inverse_length, double squared_radius) {
+[[gnu::always_inline]] inline double plain_g(double inverse_length, double squared_radius) {
   return wide_log(4 / (inverse_length * inverse_length * squared_radius)) / 2 - std::numbers::egamma;
 }
 

@@ -10,7 +10,7 @@
 ///     U_e = Q_e^2 / l_e g ,    g = ln(2 l_e / a_e) - gamma ,      T_e = dU_e/dl = Q_e^2 / l_e^2 (3/2 - g) ;
 ///
 /// of 3/2, 1/2 is the electric pressure. The element pulls its beads together as in viscoelastic.hpp, so that
-/// momentum is kept, and energy while no bead is held. Without the surface charge's pressure: 1 - g.
+/// momentum is kept, and energy while no bead is held. Without it: 1 - g.
 ///
 ///   - Charge: Q_e = V_e sqrt(c_i c_up), c the charge over mass of its two beads, so that a free end may be a
 ///     bead of half a cell. A whole one stands for a tube that reaches half an element farther.
@@ -20,10 +20,10 @@
 ///   l_step).
 ///
 /// Errors: O(a^2 / R^2) at distance R; second order in smooth spacings. Where the spacing jumps, three beads
-/// there get forces of order lambda^2 whose sum is 0. Neighbours softened by a, with another g that is exact
-/// at any l/a on a straight line, agree above l = 3 a and couple several neighbours, which neither the stiff
-/// scheme nor a chain in pieces could treat as local; not taken. Scaled. Sources: slender-body theory; the
-/// electric pressure as in Hohman, Shin, Rutledge and Brenner, Phys. Fluids 13 (2001) 2201.
+/// there get forces of order lambda^2 whose sum is 0. A form exact at any l/a on a straight line softens the
+/// repulsion of some eight neighbours by a and has a g that is greater by 0.6 (a / l)^2; it is not taken, for
+/// neither the stiff scheme nor a chain in pieces could treat it as local. Scaled. Sources: slender-body
+/// theory; the electric pressure as in Hohman, Shin, Rutledge and Brenner, Phys. Fluids 13 (2001) 2201.
 
 #include "forces/terms/section.hpp"
 #include "forces/terms/term.hpp"

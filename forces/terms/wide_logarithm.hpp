@@ -8,7 +8,7 @@
 namespace treejet {
 
 /// ln x, x positive and normal: x = 2^k m, m from sqrt(1/2) to sqrt(2), ln m = 2 artanh((m - 1) / (m + 1)).
-inline double wide_log(double x) {
+[[gnu::always_inline]] inline double wide_log(double x) {
   constexpr std::uint64_t one = 0x3ff0000000000000, root_half = 0x3fe6a09e667f3bcd,
                           mantissa = 0x000fffffffffffff, two_52 = 0x4330000000000000;
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x) + (one - root_half);
@@ -22,13 +22,13 @@ inline double wide_log(double x) {
 }
 
 /// e^x for x <= 0; from -700 down e^-700.
-inline double wide_exp(double x) {
+[[gnu::always_inline]] inline double wide_exp(double x) {
   constexpr double shift = 0x1.8p52, inverse_ln2 = 0x1.71547652b82fep0;
   constexpr double ln2_high = 0x1.62e42fefa38p-1, ln2_low = 0x1.ef35793c7673p-45;
   const double y = x < -700 ? -700 : x, shifted = y * inverse_ln2 + shift, k = shifted - shift;
   const double r = (y - k * ln2_high) - k * ln2_low;
   double sum = 1;
-  for (int n = 13; n >= 1; --n) sum = 1 + sum * r / n;
+  for (int n = 13; n >= 1; --n) sum = 1 + sum * r * (1.0 / n);
   const std::uint64_t power = std::bit_cast<std::uint64_t>(shifted) << 52;  // 2^k, but for the bias
   return sum * std::bit_cast<double>(power + 0x3ff0000000000000);
 }
