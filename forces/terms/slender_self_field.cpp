@@ -83,7 +83,7 @@ double SlenderSelfField<D>::charges(const Chain<D>& c, int i) const {
 
 template <int D>
 void SlenderSelfField<D>::add(const Chain<D>& c, Rows rows, Acceleration<D>& a) const {
-  constexpr int at_once = 128;
+  constexpr int at_once = 32;  // the limiter is at work near the nozzle only
   const double far = length_where_limiter_is_gone(section_);
   std::array<double, at_once + 1> tension;
   for (int first = rows.first; first < rows.last; first += at_once) {
