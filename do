@@ -20,12 +20,33 @@ fail() {
   exit 1
 }
 
-# quietly WHAT COMMAND...: one line and its seconds if it works, the end of its output if it does not
+# steps: of the lines that it reads those with [n/m] or [ n%], in place on a terminal, else one in half a minute
+steps() {
+  told=$(date +%s)
+  while IFS= read -r line; do
+    case $line in
+      \[*[0-9]/[0-9]*\]* | \[*[0-9]%\]*) ;;
+      *) continue ;;
+    esac
+    step=${line%%\]*}]
+    if [ -t 1 ]; then
+      printf '\r\033[K== %s ... %s' "$what" "$step"
+    elif [ $(($(date +%s) - told)) -ge 30 ]; then
+      told=$(date +%s)
+      printf '%s ... ' "$step"
+    fi
+  done
+}
+
+# quietly WHAT COMMAND...: how far it is and its seconds if it works, the end of its output if it does not
 quietly() {
   what=$1 begin=$(date +%s)
   shift
   printf '== %s ... ' "$what"
-  if "$@" >"$log" 2>&1 </dev/null; then
+  rm -f "$log.failed"
+  { "$@" 2>&1 </dev/null || : >"$log.failed"; } | tee "$log" | steps
+  if [ -t 1 ]; then printf '\r\033[K== %s ... ' "$what"; fi
+  if [ ! -e "$log.failed" ]; then
     say "done in $(($(date +%s) - begin)) s"
   else
     say failed
@@ -79,6 +100,7 @@ case ${1-} in
     install_missing $for_building $for_pictures
     if present catch2; then tests=ON; else tests=OFF; fi
     build $tests treejet
+    say "== Built build/release/treejet; it tells the rest: build/release/treejet --help"
     say "== treejet run examples/pvp/input.dat --out results/pvp --set \"print hdf5 2.d-4\""
     build/release/treejet run examples/pvp/input.dat --out results/pvp --force --set "print hdf5 2.d-4"
     say "== Pictures, and a page for the browser"
