@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <limits>
 #include <ostream>
 
+#include "core/base/error.hpp"
 #include "forces/coulomb/command/field_error.hpp"
 #include "forces/coulomb/command/point_table.hpp"
 
@@ -107,6 +109,9 @@ std::string lines(const CoulombReport& report, int n, const Times& times, const 
 }  // namespace
 
 void run(const FieldCommand& command, std::ostream& report) {
+  std::error_code error_code;
+  if (!command.out.empty() && std::filesystem::equivalent(command.out, command.points, error_code))
+    throw FileError(fmt::format("{}: holds the points; choose another file with --out", command.out));
   const PointTable points = read_points(command.points);
   std::vector<double> E[3];
   for (auto& values : E) values.resize(points.q.size());

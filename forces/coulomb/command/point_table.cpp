@@ -1,15 +1,16 @@
 #include "forces/coulomb/command/point_table.hpp"
 
 #include <fmt/format.h>
-#include <fmt/os.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <string_view>
 
 #include "core/base/error.hpp"
+#include "core/io/output_file.hpp"
 
 namespace treejet {
 
@@ -38,6 +39,8 @@ std::array<std::size_t, 4> columns(const std::string& file, const std::string& h
     const auto found = std::find(names.begin(), names.end(), wanted);
     if (found == names.end())
       throw InputError(fmt::format("{}: line 1 names no column {}; expected x,y,z,q", file, wanted));
+    if (std::find(found + 1, names.end(), wanted) != names.end())
+      throw InputError(fmt::format("{}: line 1 names column {} twice", file, wanted));
     place[k] = static_cast<std::size_t>(found - names.begin());
   }
   return place;
@@ -51,13 +54,19 @@ PointTable read_points(const std::string& file) {
   std::string line;
   std::getline(in, line);
   const auto place = columns(file, line);
+  const std::size_t width = cells(line).size();
   PointTable table;
   for (int number = 2; std::getline(in, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const std::vector<std::string_view> cell = cells(line);
+    if (cell.size() != width)
+      throw InputError(
+          fmt::format("{}: line {} has {} values, the header names {}; numbers with a decimal comma? "
+                      "write them with a point",
+                      file, number, cell.size(), width));
     for (std::size_t k = 0; k < 4; ++k) {
       double value = 0;
-      const std::string_view text = place[k] < cell.size() ? cell[place[k]] : std::string_view();
+      const std::string_view text = cell[place[k]];
       const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
       if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
         throw InputError(fmt::format("{}: line {}: '{}' is not a finite number", file, number, text));
@@ -70,16 +79,19 @@ PointTable read_points(const std::string& file) {
 
 void write_field(const std::string& file, const PointTable& points, const FieldArrays<3>& field,
                  const double* potential) {
-  try {
-    auto out = fmt::output_file(file);
-    out.print("x,y,z,q,ex,ey,ez,potential\n");
-    for (std::size_t i = 0; i < points.q.size(); ++i)
-      out.print("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", points.r[0][i],
-                points.r[1][i], points.r[2][i], points.q[i], field[0][i], field[1][i], field[2][i],
-                potential[i]);
-  } catch (const std::system_error& failure) {
-    throw FileError("cannot write " + file + ": " + failure.what());
+  OutputFile out(file, OutputFile::Existing::replace);
+  constexpr std::size_t block = 1 << 16;
+  std::string text = "x,y,z,q,ex,ey,ez,potential\n";
+  for (std::size_t i = 0; i < points.q.size(); ++i) {
+    fmt::format_to(std::back_inserter(text),
+                   "{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", points.r[0][i],
+                   points.r[1][i], points.r[2][i], points.q[i], field[0][i], field[1][i], field[2][i],
+                   potential[i]);
+    if (text.size() < block) continue;
+    out.write(text);
+    text.clear();
   }
+  out.write(text);
 }
 
 }  // namespace treejet
