@@ -91,7 +91,7 @@ std::string statistics(const fs::path& path) {
       cut_short(path, fmt::format("row {} has {} of {} values", rows, count, columns.size()));
   }
   std::string text = fmt::format("statistics: {} rows of {}\n", rows, fmt::join(columns, ", "));
-  if (rows > 1) text += fmt::format("{} from {} to {}\n", columns[0], std::stod(first), std::stod(last));
+  if (rows > 1) text += fmt::format("{} from {} to {}\n", columns[0], first, last);
   return text + made_by;
 }
 
@@ -165,17 +165,26 @@ std::string text_file(const fs::path& path) {
   throw FileError(fmt::format("{}: no file that treejet has written", path.string()));
 }
 
+/// What a file says goes to a terminal, which must not take it for commands.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if ((static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t') || c == 127) c = '?';
+  return text;
+}
+
 }  // namespace
 
 std::string file_info(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error))
     throw FileError(fmt::format("{}: is a directory; name a file in it", path.string()));
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
+    throw FileError(fmt::format("{}: not a regular file", path.string()));
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FileError(fmt::format("{}: cannot be read", path.string()));
   if (file.peek() == std::ifstream::traits_type::eof())
     throw FileError(fmt::format("{}: empty", path.string()));
-  return is_hdf5(path) ? trajectory(path) : text_file(path);
+  return printable(is_hdf5(path) ? trajectory(path) : text_file(path));
 }
 
 }  // namespace treejet

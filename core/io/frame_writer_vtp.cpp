@@ -20,6 +20,27 @@ std::string comment(std::string text) {
   return fmt::format("<?xml version=\"1.0\"?>\n<!-- {} -->\n", text);
 }
 
+/// As the value of an attribute.
+std::string escaped(std::string_view text) {
+  std::string all;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        all += "&amp;";
+        break;
+      case '<':
+        all += "&lt;";
+        break;
+      case '"':
+        all += "&quot;";
+        break;
+      default:
+        all += c;
+    }
+  }
+  return all;
+}
+
 template <class T>
 std::string array(const char* name, int components, const std::vector<T>& values) {
   return fmt::format(
@@ -37,8 +58,8 @@ class Vtp final : public FrameWriter {
   void write(const Frame& f) override {
     const std::string name = fmt::format("{:06}.vtp", f.step);
     OutputFile(folder_ / name, setting_.existing).write(text(f));
-    entries_ +=
-        fmt::format("<DataSet timestep=\"{}\" file=\"{}/{}\"/>\n", f.time, folder_.filename().string(), name);
+    entries_ += fmt::format("<DataSet timestep=\"{}\" file=\"{}/{}\"/>\n", f.time,
+                            escaped(folder_.filename().string()), name);
   }
 
   void finish() override {

@@ -135,9 +135,30 @@ H5md::H5md(const std::filesystem::path& path, Hdf5File::Access access) : file_(p
   for (const auto line : lines_of(overrides)) content_.made_by.overrides.emplace_back(line);
   content_.keys = words_of(noted("observables"));
   const Extent ids = file_.extent(element(jet, "id", "value"));
-  frames_ = ids.at(0);
-  points_ = ids.at(1);
+  frames_ = ids[0];
+  points_ = ids.size() > 1 ? ids[1] : 0;
   if (!content_.keys.empty()) rows_ = length(file_, element(observables, content_.keys[0], "value"));
+  check_extents();
+}
+
+/// All that is read later has the extent that the ids, or the first observable, have.
+void H5md::check_extents() const {
+  const auto expect = [&](const std::string& name, const Extent& extent) {
+    if (const Extent found = file_.extent(name); found != extent)
+      throw FileError(fmt::format("{} has {} values where {} are expected", name, fmt::join(found, " x "),
+                                  fmt::join(extent, " x ")));
+  };
+  expect(element(jet, "id", "value"), {frames_, points_});
+  for (const auto& [name, unit, width] : frame_columns) {
+    Extent extent{frames_, points_};
+    if (width > 1) extent.push_back(static_cast<std::uint64_t>(width));
+    expect(element(jet, name, "value"), extent);
+  }
+  for (const char* part : {"step", "time"}) {
+    expect(element(jet, frame_columns[0].name, part), {frames_});
+    if (rows_ > 0) expect(element(observables, content_.keys[0], part), {rows_});
+  }
+  for (const auto& key : content_.keys) expect(element(observables, key, "value"), {rows_});
 }
 
 /// Appends a block of this size to an element's values, which get wider if it is.

@@ -51,6 +51,7 @@ class H5md {
   std::vector<Row> rows(std::uint64_t first, std::uint64_t count) const;
 
  private:
+  void check_extents() const;
   void describe();
   void make_elements(const Chunk& chunk);
   template <class T>

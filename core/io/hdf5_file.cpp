@@ -1,6 +1,7 @@
 #include "core/io/hdf5_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <hdf5.h>
 
 #include <utility>
@@ -12,6 +13,18 @@ namespace treejet {
 static_assert(std::is_same_v<hid_t, std::int64_t> || sizeof(hid_t) == sizeof(std::int64_t));
 
 namespace {
+
+/// The library, set up once before anything else calls it: whichever call is the first starts it, and after
+/// that it can no longer be told to leave the end of the program alone. A file that could not be closed must
+/// not be tried again there.
+void start_library() {
+  static const bool once = [] {
+    H5dont_atexit();
+    H5open();
+    return H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
+  }();
+  static_cast<void>(once);
+}
 
 /// The innermost reason on HDF5's stack of errors, where the operating system gave one: its words only, as
 /// HDF5 adds the clock and the addresses of its buffers.
@@ -97,13 +110,51 @@ std::string without_padding(std::string text) {
   return text;
 }
 
+[[noreturn]] void refuse(const std::filesystem::path& path, std::string_view object, std::string_view why) {
+  throw FileError(fmt::format("{}: {} {}", path.string(), object, why));
+}
+
+/// A dataset whose values are in this very file. Soft and external links, external raw data and virtual
+/// datasets lead elsewhere, as far as any file that the user may read, and Treejet writes none.
+Handle own_dataset(hid_t file, const std::filesystem::path& path, const std::string& name) {
+  const Checker check(path, name);
+  for (auto end = name.find('/', 1);; end = name.find('/', end + 1)) {
+    H5L_info_t link;
+    check(H5Lget_info(file, name.substr(0, end).c_str(), &link, H5P_DEFAULT), "cannot be read");
+    if (link.type != H5L_TYPE_HARD) refuse(path, name, "is a link that may lead out of the file");
+    if (end == std::string::npos) break;
+  }
+  Handle set(check(H5Dopen2(file, name.c_str(), H5P_DEFAULT), "cannot be read"), H5Dclose);
+  const Handle content(check(H5Dget_create_plist(set), "cannot be read"), H5Pclose);
+  if (H5Pget_external_count(content) != 0 || H5Pget_layout(content) == H5D_VIRTUAL)
+    refuse(path, name, "has its values in another file");
+  return set;
+}
+
+/// The size of the one text of fixed length that is there, of `stored` bytes in the file.
+std::size_t text_size(hid_t type, hid_t space, hsize_t stored, const std::filesystem::path& path,
+                      std::string_view object) {
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
+      H5Sget_simple_extent_npoints(space) != 1)
+    refuse(path, object, "is not one text of fixed length");
+  const std::size_t size = H5Tget_size(type);
+  if (size > stored) refuse(path, object, fmt::format("has {} bytes, of which {} are stored", size, stored));
+  return size;
+}
+
+/// Whether so many values can be what the stored bytes tell: deflate shrinks by a factor of 1032 at the most.
+bool plausible(const Extent& extent, hsize_t stored) {
+  constexpr double most_deflated = 1032, value = 8;
+  const bool rows_only = extent.size() == 1;
+  double bytes = value;  // of a row, which is written as a whole
+  for (std::size_t k = rows_only ? 0 : 1; k < extent.size(); ++k) bytes *= static_cast<double>(extent[k]);
+  return extent[0] == 0 || bytes <= most_deflated * static_cast<double>(stored);
+}
+
 }  // namespace
 
 Hdf5File::Hdf5File(std::filesystem::path path, Access access) : path_(std::move(path)) {
-  // a file that could not be closed must not be tried again at exit
-  static const bool once =
-      H5dont_atexit() >= 0 && H5open() >= 0 && H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
-  static_cast<void>(once);
+  start_library();
   const Checker check(path_, "");
   const Handle how(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   // lock the file where the system can, so that it is not changed under a reader
@@ -236,19 +287,28 @@ bool Hdf5File::has(const std::string& name) const {
 
 Extent Hdf5File::extent(const std::string& dataset) const {
   const Checker check(path_, dataset);
-  const Handle set(check(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), "cannot be read"), H5Dclose);
+  const Handle set = own_dataset(file_, path_, dataset);
+  const Handle type(check(H5Dget_type(set), "cannot be read"), H5Tclose);
+  if (H5Tget_class(type) != H5T_FLOAT && H5Tget_class(type) != H5T_INTEGER)
+    refuse(path_, dataset, "does not hold numbers");
   const Handle space(check(H5Dget_space(set), "cannot be read"), H5Sclose);
   std::vector<hsize_t> now(
       static_cast<std::size_t>(check(H5Sget_simple_extent_ndims(space), "cannot be read")));
+  if (now.empty()) refuse(path_, dataset, "is one value, not a table");
   check(H5Sget_simple_extent_dims(space, now.data(), nullptr), "cannot be read");
-  return {now.begin(), now.end()};
+  Extent extent(now.begin(), now.end());
+  if (const hsize_t stored = H5Dget_storage_size(set); !plausible(extent, stored))
+    refuse(path_, dataset,
+           fmt::format("claims {} values, but {} bytes are stored", fmt::join(extent, " x "), stored));
+  return extent;
 }
 
 std::string Hdf5File::text(const std::string& dataset) const {
   const Checker check(path_, dataset);
-  const Handle set(check(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), "cannot be read"), H5Dclose);
-  const Handle type(check(H5Dget_type(set), "cannot be read"), H5Tclose);
-  std::string value(H5Tget_size(type), '\0');
+  const Handle set = own_dataset(file_, path_, dataset);
+  const Handle type(check(H5Dget_type(set), "cannot be read"), H5Tclose),
+      space(check(H5Dget_space(set), "cannot be read"), H5Sclose);
+  std::string value(text_size(type, space, H5Dget_storage_size(set), path_, dataset), '\0');
   check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data()), "cannot be read");
   return without_padding(value);
 }
@@ -258,8 +318,9 @@ std::string Hdf5File::text_attribute(const std::string& object, const std::strin
   const Handle a(check(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
                        "attribute cannot be read"),
                  H5Aclose);
-  const Handle type(check(H5Aget_type(a), "attribute cannot be read"), H5Tclose);
-  std::string value(H5Tget_size(type), '\0');
+  const Handle type(check(H5Aget_type(a), "attribute cannot be read"), H5Tclose),
+      space(check(H5Aget_space(a), "attribute cannot be read"), H5Sclose);
+  std::string value(text_size(type, space, H5Aget_storage_size(a), path_, object), '\0');
   check(H5Aread(a, type, value.data()), "attribute cannot be read");
   return without_padding(value);
 }
@@ -276,7 +337,7 @@ void Hdf5File::transfer(const std::string& dataset, const Box& box, bool writes,
   const Checker check(path_, dataset);
   const std::vector<hsize_t> first(box.first.begin(), box.first.end()),
       size(box.size.begin(), box.size.end());
-  const Handle set(check(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), "cannot be opened"), H5Dclose);
+  const Handle set = own_dataset(file_, path_, dataset);
   const Handle place(check(H5Dget_space(set), "cannot be opened"), H5Sclose);
   const Handle memory(check(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), "space"),
                       H5Sclose);
@@ -301,11 +362,12 @@ void Hdf5File::read(const std::string& dataset, const Box& box, std::int64_t* va
 }
 
 bool is_hdf5(const std::filesystem::path& path) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  start_library();
   return H5Fis_hdf5(path.c_str()) > 0;
 }
 
 std::string hdf5_version() {
+  start_library();
   unsigned major = 0, minor = 0, release = 0;
   H5get_libversion(&major, &minor, &release);
   return fmt::format("{}.{}.{}", major, minor, release);

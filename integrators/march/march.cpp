@@ -182,7 +182,15 @@ bool March<D>::to(double end) {
 
 template <int D>
 void March<D>::visit(Archive& state) {
+  const auto columns = jet_.y.cols();
   state(jet_, parts_.motion, parts_.control, forecast_, effort_, under_way_);
+  if (!state.reading()) return;
+  const auto n = jet_.size();
+  const bool alike = jet_.mass.size() == n && jet_.charge.size() == n && jet_.volume.size() == n &&
+                     jet_.y.cols() == columns && (jet_.slope.rows() == n || !under_way_) &&
+                     (jet_.slope.cols() == columns || !under_way_);
+  if (!alike || jet_.removed < 0)
+    throw FileError("the checkpoint's jet has beads without a mass, a charge, a volume or a velocity");
 }
 
 /// The event that ends this step, if any. An adaptive step with an event well inside is made anew to end
