@@ -1,8 +1,15 @@
 /// The front door: arguments -> command -> exit code. No physics here.
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <csignal>
+#include <cstdio>
 #include <iostream>
+#include <new>
+#include <system_error>
 
 #include "core/base/error.hpp"
 #include "core/commands/command_line.hpp"
@@ -18,6 +25,8 @@
 namespace treejet {
 
 int main(const Arguments& a, const Ranks& ranks) {
+  const bool parallel = a.command == "run" || a.command == "field";
+  if (!parallel && !ranks.first()) return 0;  // one is enough, and two would write the same file
   if (a.command == "run") return run_deck(a, ranks);
   if (a.command == "check") {
     check_deck(a);
@@ -37,9 +46,43 @@ int main(const Arguments& a, const Ranks& ranks) {
   return 0;
 }
 
+constexpr int memory_refused = 5;
+
+/// Where descriptors 0 to 2 are closed, the next files opened would get their numbers, and the table and
+/// messages with them.
+void occupy_standard_descriptors() {
+  for (int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(descriptor, F_GETFD) < 0) static_cast<void>(::open("/dev/null", O_RDWR));
+}
+
+/// What was printed is out, or its reader has gone, which is no failure: `treejet ... | head`.
+void flush_standard_output() {
+  const bool flushed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  struct stat out {};
+  const bool reader = ::fstat(STDOUT_FILENO, &out) == 0 && (S_ISFIFO(out.st_mode) || S_ISSOCK(out.st_mode));
+  if (!flushed && !reader) throw FileError("standard output: writing failed");
+}
+
+int command(int argc, char** argv, const Ranks& ranks) {
+  std::string all;
+  for (int k = 1; k < argc; ++k) all += std::string(argv[k]) + '\n';
+  if (!ranks.agree(all)) throw LaunchError("the ranks were started with different arguments");
+  const auto arguments = command_line(argc, argv, version_text());
+  int code = 0;
+  try {
+    if (arguments) code = main(*arguments, ranks);
+  } catch (const std::system_error&) {
+    if (std::ferror(stdout) == 0) throw;
+  }
+  flush_standard_output();
+  return code;
+}
+
 }  // namespace treejet
 
 int main(int argc, char** argv) {
+  treejet::occupy_standard_descriptors();
+  std::signal(SIGXFSZ, SIG_IGN);  // the failed write tells, by name of the file
   treejet::Ranks ranks;
   const auto fail = [&](int exit_code, const char* what) {
     return ranks.fail(exit_code, fmt::format("treejet: {}\n", what));
@@ -47,12 +90,13 @@ int main(int argc, char** argv) {
   try {
     treejet::hand_over_to_companion(argc, argv);
     ranks = treejet::join_ranks();
-    const auto arguments = treejet::command_line(argc, argv, treejet::version_text());
-    return arguments ? treejet::main(*arguments, ranks) : 0;
+    return treejet::command(argc, argv, ranks);
   } catch (const treejet::Error& e) {
     return fail(e.exit_code(), e.what());
   } catch (const treejet::LaunchError& e) {
     return fail(2, e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(treejet::memory_refused, "the system refuses the memory that this takes");
   } catch (const std::exception& e) {
     return fail(1, e.what());
   }

@@ -25,10 +25,10 @@ A deck is a text file of directives in CGS units, as JETSPIN's input.dat. Start 
 Any directive can be replaced for one run:
   treejet run input.dat --out r12 --set "external potential 40.03" --set "final time 0.1"
 
-A run is stopped with a checkpoint by Ctrl-C, SIGTERM, SIGUSR1 or --walltime, and goes on to the same bytes:
+A run is stopped with a checkpoint by Ctrl-C, SIGTERM, SIGUSR1, SIGHUP or --walltime, and goes on to the same bytes:
   treejet run --resume results
 
-Exit codes: 0 done, 2 deck or arguments, 3 numerical failure, 4 files, 75 stopped with a checkpoint.)";
+Exit codes: 0 done, 2 deck or arguments, 3 numerical failure, 4 files, 5 memory refused, 75 stopped with a checkpoint.)";
 
 CLI::Option* add_deck(CLI::App& command, Arguments& a) {
   auto* deck = command.add_option("DECK", a.deck, "the deck, e.g. examples/pvp/input.dat");

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "core/base/error.hpp"
+#include "core/io/output_file.hpp"
 
 namespace treejet {
 
@@ -22,6 +23,9 @@ void check(bool done, const fs::path& path, const char* what) {
 }  // namespace
 
 std::string read_whole(const fs::path& path) {
+  std::error_code kind;
+  if (fs::exists(path, kind) && !fs::is_regular_file(path, kind))
+    throw FileError(fmt::format("{}: cannot be read: not a regular file", path.string()));
   std::ifstream stream(path, std::ios::binary);
   std::error_code error;
   const auto size = fs::file_size(path, error);
@@ -33,12 +37,15 @@ std::string read_whole(const fs::path& path) {
 
 void write_whole(const fs::path& path, std::string_view text) {
   const fs::path fresh = path.string() + ".next";
-  std::ofstream stream(fresh, std::ios::trunc);
-  check(bool(stream), path, "cannot be written");
-  stream << text << std::flush;
-  check(bool(stream), path, "writing failed");
-  stream.close();
-  put_in_place(fresh, path);
+  std::error_code error;
+  fs::remove(fresh, error);  // a link goes itself, not what it leads to
+  try {
+    OutputFile(fresh, OutputFile::Existing::keep).write(text);
+    put_in_place(fresh, path);
+  } catch (const FileError&) {
+    fs::remove(fresh, error);
+    throw;
+  }
 }
 
 void put_in_place(const fs::path& fresh, const fs::path& path) {

@@ -20,7 +20,7 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory) {
   if (descriptor_ < 0) throw FileError(fmt::format("{}: {}", directory.string(), std::strerror(errno)));
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(descriptor_);
-    throw FileError(fmt::format("{}: another run is writing its results there", directory.string()));
+    throw FileError(fmt::format("{}: another run is running there", directory.string()));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <exception>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -50,9 +51,20 @@ Json read_record(const fs::path& path) {
   if (!file) throw FileError(fmt::format("{}: cannot be read", path.string()));
   const Json record = Json::parse(file, nullptr, /*allow_exceptions*/ false);
   if (record.is_discarded()) throw FileError(fmt::format("{}: cut short, or no JSON", path.string()));
-  if (!record.is_object() || record.value("format", "") != format_name)
+  if (!record.is_object() || record.value("format", Json()) != Json(format_name))
     throw FileError(fmt::format("{}: JSON, but no run record of treejet", path.string()));
   return record;
+}
+
+/// The record to add a segment to; a new one where it is damaged, as that must not keep a run from going on.
+Json record_to_continue(const RunRecord::Setting& s, const fs::path& path) try {
+  Json record = read_record(path);
+  const Json segments = record.value("segments", Json());
+  const bool sound = segments.is_array() && std::all_of(segments.begin(), segments.end(),
+                                                        [](const Json& one) { return one.is_object(); });
+  return sound ? record : record_of(s);
+} catch (const std::exception&) {
+  return record_of(s);
 }
 
 /// A deck may hold bytes of any encoding; JSON only UTF-8.
@@ -67,7 +79,8 @@ RunRecord::RunRecord(const Setting& setting) : path_(setting.directory / run_rec
   std::error_code error;
   const bool there = fs::exists(path_, error);
   if (there && setting.existing == Existing::keep) throw exists_already(path_);
-  Json record = there && setting.existing == Existing::resume ? read_record(path_) : record_of(setting);
+  Json record =
+      there && setting.existing == Existing::resume ? record_to_continue(setting, path_) : record_of(setting);
   record["segments"].push_back({{"started", now()},
                                 {"host", host()},
                                 {"ranks", setting.circumstances.ranks},
@@ -91,12 +104,22 @@ void RunRecord::complete() {
 void RunRecord::end(const char* outcome) {
   ended_ = true;
   Json record = read_record(path_);
+  if (!record.contains("segments") || !record["segments"].is_array() || record["segments"].empty() ||
+      !record["segments"].back().is_object())
+    throw FileError(fmt::format("{}: was changed by another program during the run", path_.string()));
   Json& segment = record["segments"].back();
   segment["outcome"] = outcome;
   segment["ended"] = now();
   segment["wall_seconds"] =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   write(path_, record);
+}
+
+bool has_completed(const fs::path& directory) try {
+  const Json record = read_record(directory / run_record_name);
+  return record.at("segments").back().at("outcome") == "completed";
+} catch (const std::exception&) {
+  return false;
 }
 
 std::string run_record_text(const fs::path& path) try {

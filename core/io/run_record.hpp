@@ -49,6 +49,9 @@ class RunRecord {
   bool ended_ = false;
 };
 
+/// Whether the last segment of the run in a directory has come to its end; false without a sound record.
+bool has_completed(const std::filesystem::path& directory);
+
 /// What a record tells, for people. FileError if it is none, or cut short.
 std::string run_record_text(const std::filesystem::path& path);
 

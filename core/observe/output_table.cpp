@@ -16,6 +16,12 @@ std::string label(const std::string& key) {
   const ObservableKey* known = observable_key(key);
   return known ? fmt::format("{}[{}]", key, known->unit) : key;
 }
+
+/// A terminal that has gone does not end the run; the front door tells of the failure in the end.
+void put(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+}
 }  // namespace
 
 StatFile::StatFile(OutputFile file, const std::vector<std::string>& keys, const Provenance& made_by)
@@ -43,7 +49,7 @@ void StatFile::remark(const std::string& text) {
 
 void TerminalTable::remark(const std::string& text) {
   if (stderr_is_interactive()) fmt::print(stderr, "{}", clear_line);
-  fmt::print("# {}\n", text);
+  put(fmt::format("# {}\n", text));
 }
 
 void TerminalTable::row(const std::vector<double>& values) {
@@ -55,8 +61,7 @@ void TerminalTable::row(const std::vector<double>& values) {
   }
   for (double v : values) text += std::isnan(v) ? fmt::format("{:>16}", "-") : fmt::format("{:>16.8g}", v);
   if (stderr_is_interactive()) fmt::print(stderr, "{}", clear_line);
-  fmt::print("{}\n", text);
-  std::fflush(stdout);
+  put(text + "\n");
 }
 
 }  // namespace treejet

@@ -43,6 +43,20 @@ bool makes_rows(const Parameters& p, const OutputSetting& setting) {
   return makes_table(p, setting) || !p.printstat_list.empty() || !hdf5_observables(p).empty();
 }
 
+/// All files are looked for before the first is made. A link that leads nowhere is there, too.
+void expect_absent(const Parameters& p, const std::filesystem::path& directory) {
+  std::vector<const char*> names;
+  if (!p.printstat_list.empty()) names.push_back("statdat.dat");
+  if (p.print_xyz) names.push_back("traj.xyz");
+  if (p.print_hdf5) names.insert(names.end(), {"traj.h5", "traj.xdmf"});
+  if (!names.empty()) names.push_back(run_record_name);
+  for (const char* name : names) {
+    std::error_code error;
+    if (std::filesystem::exists(std::filesystem::symlink_status(directory / name, error)))
+      throw exists_already(directory / name);
+  }
+}
+
 template <int D>
 class Contribution final : public Sampling<D> {
  public:
@@ -73,7 +87,7 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
     contribute(p, setting, decomposition);
     return;
   }
-  if (p.print_hdf5 || p.print_xyz || !p.printstat_list.empty()) lock_.emplace(setting.directory);
+  if (setting.existing == OutputFile::Existing::keep) expect_absent(p, setting.directory);
   const Scales s = scales(p);
   const auto file = [&](const char* name) {
     files_.push_back(setting.directory / name);

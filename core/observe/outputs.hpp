@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "core/io/directory_lock.hpp"
 #include "core/io/output_file.hpp"
 #include "core/io/run_record.hpp"
 #include "core/jet/decomposition.hpp"
@@ -41,7 +40,7 @@ struct OutputSetting {
 template <int D>
 class Outputs {
  public:
-  /// Opens the files; FileError if one exists already or cannot be made, or if another run writes there.
+  /// Opens the files; FileError if one exists already or cannot be made, and then none has been made.
   Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
           const OutputSetting& setting, const Decomposition<D>& decomposition = undivided<D>);
   ~Outputs();
@@ -65,7 +64,6 @@ class Outputs {
     std::unique_ptr<Observer<D>> watcher;
   };
 
-  std::optional<DirectoryLock> lock_;  ///< none without files
   std::vector<Named> watchers_;
   std::vector<std::filesystem::path> files_;
   const XyzTrajectory<D>* trajectory_ = nullptr;

@@ -88,7 +88,6 @@ Checkpoints::Checkpoints(fs::path directory, OutputFile::Existing existing)
     : directory_(std::move(directory)) {
   std::error_code error;
   const bool there = fs::exists(directory_ / newest, error) || fs::exists(directory_ / older, error);
-  if (existing == OutputFile::Existing::replace) remove();
   if (existing == OutputFile::Existing::keep && there) {
     throw FileError(fmt::format(
         "{}: a run was stopped here; continue it with: treejet run --resume {}, or replace it with --force",
@@ -101,12 +100,13 @@ void Checkpoints::write(Checkpoint& checkpoint) const {
   archive(checkpoint);
   const std::string payload = std::move(archive).bytes();
   const Seal seal{.length = payload.size(), .checksum = checksum(payload)};
-  OutputFile file(directory_ / unfinished, OutputFile::Existing::replace);
+  std::error_code error;
+  fs::remove(directory_ / unfinished, error);  // a link goes itself, not what it leads to
+  OutputFile file(directory_ / unfinished, OutputFile::Existing::keep);
   file.write(title);
   file.write({reinterpret_cast<const char*>(&seal), sizeof seal});
   file.write(payload);
   file.sync();
-  std::error_code error;
   if (fs::exists(directory_ / newest, error)) put_in_place(directory_ / newest, directory_ / older);
   put_in_place(directory_ / unfinished, directory_ / newest);
   force_to_disk(directory_);

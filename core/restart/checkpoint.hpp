@@ -76,12 +76,11 @@ Checkpoint read_checkpoint(const std::filesystem::path& file);
 /// The checkpoints of one run.
 class Checkpoints {
  public:
-  /// FileError if the directory holds checkpoints already and these are to be kept; removes those to be
-  /// replaced.
+  /// FileError if the directory holds checkpoints already and these are to be kept. Changes nothing.
   Checkpoints(std::filesystem::path directory, OutputFile::Existing existing);
 
   void write(Checkpoint& checkpoint) const;
-  /// The run has come to its end.
+  /// The run has come to its end, or takes the place of another.
   void remove() const;
 
  private:

@@ -34,8 +34,9 @@ constexpr double reserve = 0.02, most_reserve = 60;
 }  // namespace
 
 StopSignals::StopSignals(const Setting& setting) : setting_(setting) {
-  for (int signal : {SIGTERM, SIGINT, SIGUSR1}) handle(signal, catch_signal);
+  for (int signal : {SIGTERM, SIGINT, SIGUSR1, SIGUSR2, SIGHUP, SIGXCPU}) handle(signal, catch_signal);
   handle(SIGXFSZ, SIG_IGN);  // the failed write tells, by name of the file
+  handle(SIGPIPE, SIG_IGN);  // the files are worth more than the table that nobody reads any more
   if (!setting_.checkpoint && !setting_.walltime) next_save_ = std::numeric_limits<double>::infinity();
 }
 
@@ -55,6 +56,10 @@ StopRequest StopSignals::look_at_clock() {
   const auto now = Clock::now();
   const double since = seconds(now - last_look_), elapsed = seconds(now - started_);
   last_look_ = now;
+  if (saving_) {  // the interval counts from the end of a save, however long that took
+    saving_ = false;
+    next_save_ = elapsed + setting_.checkpoint.value_or(std::numeric_limits<double>::infinity());
+  }
   longest_ = std::max(longest_, since);
   stride_ = since < looks_apart ? std::min(2 * stride_, most_steps) : std::max(stride_ / 2, 1);
   if (setting_.walltime) {
@@ -62,7 +67,7 @@ StopRequest StopSignals::look_at_clock() {
     if (left < 2 * longest_ + std::min(reserve * *setting_.walltime, most_reserve)) return StopRequest::stop;
   }
   if (elapsed < next_save_) return StopRequest::go_on;
-  next_save_ = elapsed + setting_.checkpoint.value_or(std::numeric_limits<double>::infinity());
+  saving_ = true;
   return StopRequest::save;
 }
 
@@ -74,6 +79,12 @@ std::string StopSignals::reason() const {
       return "SIGINT";
     case SIGUSR1:
       return "SIGUSR1";
+    case SIGUSR2:
+      return "SIGUSR2";
+    case SIGHUP:
+      return "SIGHUP";
+    case SIGXCPU:
+      return "SIGXCPU";
     default:
       return setting_.walltime ? "walltime" : "a signal to another process";
   }

@@ -4,10 +4,13 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 
 #include "core/base/error.hpp"
 #include "core/deck/deck.hpp"
+#include "core/io/directory_lock.hpp"
 #include "core/io/provenance.hpp"
+#include "core/io/run_record.hpp"
 #include "core/restart/resume.hpp"
 #include "forces/coulomb/coulomb.hpp"
 #include "forces/scene/scene_description.hpp"
@@ -83,6 +86,14 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* ch
   return straight ? run<1>(deck, a, ranks, checkpoint) : run<3>(deck, a, ranks, checkpoint);
 }
 
+/// Whether the run in a directory has come to its end. FileError if another process is at it.
+bool is_completed(const std::string& directory, const Ranks& ranks) {
+  std::error_code error;
+  if (ranks.first() && std::filesystem::is_directory(directory, error)) DirectoryLock{directory};
+  return has_completed(directory) &&
+         !std::filesystem::exists(std::filesystem::path(directory) / "checkpoint", error);
+}
+
 }  // namespace
 
 std::string version_text() {
@@ -102,6 +113,10 @@ OutputFile::Existing existing(const Arguments& a) {
 
 int run_deck(const Arguments& a, const Ranks& ranks) {
   if (a.resume.empty()) return run(read_deck(a.deck, a.overrides), a, ranks);
+  if (is_completed(a.resume, ranks)) {
+    if (ranks.first()) fmt::print("{}: the run is already at its end\n", a.resume);
+    return 0;
+  }
   Resumption stopped = resumption(a.resume, version_text());
   if (ranks.first())
     for (const auto& w : stopped.warnings) fmt::print(stderr, "treejet: warning: {}\n", w);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/deck/deck.hpp"
+#include "core/io/directory_lock.hpp"
 #include "core/observe/outputs.hpp"
 #include "core/restart/checkpoint.hpp"
 #include "core/restart/stop_request.hpp"
@@ -48,6 +49,7 @@ class Simulation {
   const Jet<D>& jet_;
   const Decomposition<D>& decomposition_;
   Setting setting_;
+  std::optional<DirectoryLock> lock_;       ///< before anything in the directory is touched
   std::optional<Checkpoints> checkpoints_;  ///< none if another process makes the outputs
   Outputs<D> outputs_;
   Integration<D> integration_;
