@@ -114,7 +114,39 @@ for signal in TERM USR1 INT; do
   same $signal "a run stopped by $signal"
   is "files of a run stopped by $signal" "$(ls $signal | tr '\n' ' ')" "run.json statdat.dat traj.xyz "
 done
-expect 4 "resuming a run that has ended" "$treejet" run --resume TERM
+expect 0 "resuming a run that has ended" "$treejet" run --resume TERM
+grep -q 'already at its end' out || fail "resuming a run that has ended does not say so: $(cat out)"
+
+# What is going on in a directory is left alone by a second run there, whatever it asks for.
+"$treejet" run "$pvp" --quiet --set "checkpoint 0.1" --set "tolerance 1.d-12" --out going &
+run=$!
+until [ -e going/checkpoint ]; do sleep 0.01; done
+expect 4 "a second run where one is going on" "$treejet" run "$pvp" --quiet --out going --force
+[ -e going/checkpoint ] || fail "a refused run removed the checkpoints of the one going on"
+expect 4 "resuming a run that is going on" "$treejet" run --resume going
+grep -q 'is running there' err || fail "the message does not tell that a run is going on: $(cat err)"
+kill -TERM $run
+wait $run
+is "exit code of the run that was left alone" $? 75
+
+# Standard output that cannot be written is a failure of files; without it nothing goes astray.
+if [ -w /dev/full ]; then
+  "$treejet" reference >/dev/full 2>err
+  is "exit code of the reference to a full device" $? 4
+  "$treejet" check "$pvp" >/dev/full 2>err
+  is "exit code of a check to a full device" $? 4
+fi
+short --out closed <&- >&- 2>&-
+is "exit code of a run without standard descriptors" $? 0
+grep -q 'done in' closed/statdat.dat && fail "the table of a run without standard output is in its files"
+
+# A table whose numbers have decimal commas is not read as other points.
+printf 'x,y,z,q\n0,5,0,0,1\n' >commas.csv
+expect 2 "a table with decimal commas" "$treejet" field commas.csv
+grep -q 'decimal' err || fail "the message does not tell of decimal commas: $(cat err)"
+printf 'x,y,z,q\n0,0,0,1\n1,0,0,1\n' >points.csv
+expect 4 "a field over its own points" "$treejet" field points.csv --out points.csv --force
+is "points after a refused field" "$(wc -l <points.csv)" 3
 
 expect 75 "a run with no time" long --out late --walltime 0.001
 expect 2 "resuming with another deck" "$treejet" run --resume late "$pvp" --set "viscosity 30"
