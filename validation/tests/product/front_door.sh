@@ -145,7 +145,7 @@ printf 'x,y,z,q\n0,5,0,0,1\n' >commas.csv
 expect 2 "a table with decimal commas" "$treejet" field commas.csv
 grep -q 'decimal' err || fail "the message does not tell of decimal commas: $(cat err)"
 printf 'x,y,z,q\n0,0,0,1\n1,0,0,1\n' >points.csv
-expect 4 "a field over its own points" "$treejet" field points.csv --out points.csv --force
+expect 4 "a field over its own points" "$treejet" field points.csv --out points.csv
 is "points after a refused field" "$(wc -l <points.csv)" 3
 
 expect 75 "a run with no time" long --out late --walltime 0.001
