@@ -3,13 +3,14 @@
 #   ./do run     install what is missing, build, spin the paper's PVP jet into results/pvp and draw it
 #   ./do test    install what is missing, build, run the tests
 set -eu
-cd "$(dirname "$0")"
+[ "${1-}" = functions ] || cd "$(dirname "$0")"
 
 for_building="g++ cmake ninja-build libeigen3-dev libfmt-dev libcli11-dev zlib1g-dev libhdf5-dev nlohmann-json3-dev
   libopenmpi-dev openmpi-bin"
 for_pictures="python3-matplotlib python3-h5py"
 for_tests="catch2 libfftw3-dev libsundials-dev hdf5-tools python3-h5py python3-ase python3-matplotlib python3-jinja2
   python3-pandas python3-pytest"
+for_ci="clang libomp-dev clang-format doxygen"
 
 log=build/do.log
 
@@ -113,6 +114,7 @@ case ${1-} in
     build ON all
     ctest --test-dir build/release --output-on-failure --parallel "$(nproc)"
     ;;
+  functions) ;; # .ci/run takes what stands above
   *)
     sed -n '2,4s/^# //p' "$0"
     exit 2

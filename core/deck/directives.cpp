@@ -1,5 +1,5 @@
-#include "core/base/tree_parameters.hpp"
 #include "core/deck/directives.hpp"
+#include "core/base/tree_parameters.hpp"
 
 #include <fmt/format.h>
 

@@ -57,7 +57,7 @@ struct Parameters : CoulombSetting {
   double surface_tension = 0;     ///< g/s^2
   SurfaceModel surface_model = SurfaceModel::paper;
   SelfField self_field = SelfField::point;
-  double yield_stress = 0;        ///< g/(cm s^2)
+  double yield_stress = 0;  ///< g/(cm s^2)
   bool hbfluid = false;
   double hb_consistency = 1;  ///< in units of the viscosity, strain rates in 1/s
   double hb_index = 1;

@@ -1,7 +1,7 @@
 #pragma once
 /// The equations of motion: the terms that a scene names, summed: the local ones, each of a bead and its
-/// neighbours, and the Coulomb force, which couples all beads. The right-hand sides of multirate and of a jet in
-/// subdomains stand on this one.
+/// neighbours, and the Coulomb force, which couples all beads. The right-hand sides of multirate and of a jet
+/// in subdomains stand on this one.
 ///
 ///     dr_i/dt = v_i ,    m_i dv_i/dt = sum of the force terms ,    d sigma_i/dt = constitutive equation .
 ///

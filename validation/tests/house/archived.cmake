@@ -1,5 +1,6 @@
 # cmake -D git=GIT -D tree=DIR -D work=DIR -P archived.cmake
 
+cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${work})
 file(MAKE_DIRECTORY ${work}/tree)
 execute_process(COMMAND ${git} -C ${tree} archive --output=${work}/tree.tar HEAD core/base COMMAND_ERROR_IS_FATAL ANY)

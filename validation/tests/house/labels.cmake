@@ -1,5 +1,6 @@
 # cmake -D ctest=CTEST -D build=DIR -D folders=LIST -P labels.cmake
 
+cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND ${ctest} --test-dir ${build} --print-labels OUTPUT_VARIABLE labels COMMAND_ERROR_IS_FATAL ANY)
 foreach(folder IN LISTS folders ITEMS house)
   if(NOT labels MATCHES "\n  ${folder}\n")
