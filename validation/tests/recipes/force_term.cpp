@@ -64,7 +64,8 @@ TEST_CASE("The derivative of drag by the velocity is that of its differences") {
     auto more = jet, less = jet;
     more.y(0, velocity_column<3> + k) += h;
     less.y(0, velocity_column<3> + k) -= h;
-    const auto difference = (slope(f, more) - slope(f, less)).row(0).segment<3>(velocity_column<3>) / (2 * h);
+    const Eigen::Array<double, 1, 3> difference =
+        (slope(f, more) - slope(f, less)).row(0).segment<3>(velocity_column<3>) / (2 * h);
     // central differences err by h^2 / 6 times a third derivative of order 1
     CHECK((J.acceleration_by_v[0].col(k).transpose().array() - difference).abs().maxCoeff() < 1e-8);
   }
