@@ -97,7 +97,7 @@ if [ -w /dev/full ]; then
   mkdir full && ln -s /dev/full full/statdat.dat
   ends 4 "writing failed" "a full disk on the first rank" on 3 "$treejet" run "$pvp" --quiet --out full --force
 fi
-ends 2 "different decks" "ranks with different decks" "$mpiexec" "$flag" 1 "$treejet" run "$pvp" --quiet --out wrong : \
+ends 2 "different arguments" "ranks with different decks" "$mpiexec" "$flag" 1 "$treejet" run "$pvp" --quiet --out wrong : \
   "$flag" 1 "$treejet" run "$pvp" --quiet --set "viscosity 3." --out wrong
 ends 2 "vectors" "ranks with different vectors" "$mpiexec" "$flag" 1 "$treejet" run "$pvp" --quiet --out wrong : \
   "$flag" 1 env TREEJET_VECTOR_PATH=plain "$treejet" run "$pvp" --quiet --out wrong
