@@ -123,6 +123,18 @@ TEST_CASE("A Herschel-Bulkley fluid takes the place of Maxwell's") {
   CHECK(compose<3>(p, {1}).motion->stress_law().name() == "Herschel-Bulkley stress");
 }
 
+TEST_CASE("Multirate stays out where the rate of the stress jumps or has a kink as an element turns") {
+  Parameters yielding = example("pvp");
+  yielding.yield_stress = 1000;
+  CHECK(reason(compose<3>(yielding, {1}), "two rates").starts_with("the stress law has a kink"));
+  Parameters power = example("pvp");
+  power.hbfluid = true;
+  power.hb_index = 0.8;
+  CHECK(reason(compose<3>(power, {1}), "two rates").starts_with("the stress law has a kink"));
+  power.hb_index = 1;
+  CHECK(compose<3>(power, {1}).multirate);
+}
+
 TEST_CASE("No output is made that the deck does not ask for") {
   namespace fs = std::filesystem;
   const fs::path directory = fs::temp_directory_path() / "treejet-test-composition";
