@@ -1,7 +1,7 @@
 #pragma once
 /// `treejet convert`: traj.h5 into the formats of other tools (core/io/frame_writer.hpp).
 
-#include "core/io/output_file.hpp"
+#include "core/base/output_file.hpp"
 
 namespace treejet {
 

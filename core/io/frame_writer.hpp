@@ -18,8 +18,8 @@
 
 #include <memory>
 
+#include "core/base/output_file.hpp"
 #include "core/io/frame.hpp"
-#include "core/io/output_file.hpp"
 
 namespace treejet {
 

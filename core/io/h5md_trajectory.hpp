@@ -16,8 +16,8 @@
 
 #include <chrono>
 
+#include "core/base/output_file.hpp"
 #include "core/io/h5md.hpp"
-#include "core/io/output_file.hpp"
 #include "core/io/xdmf.hpp"
 
 namespace treejet {

@@ -13,7 +13,7 @@
 #include <chrono>
 #include <filesystem>
 
-#include "core/io/output_file.hpp"
+#include "core/base/output_file.hpp"
 #include "core/io/provenance.hpp"
 
 namespace treejet {

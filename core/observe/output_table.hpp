@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/output_file.hpp"
+#include "core/base/output_file.hpp"
 #include "core/io/provenance.hpp"
 #include "core/observe/recorder.hpp"
 

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <string>
 
-#include "core/io/output_file.hpp"
+#include "core/base/output_file.hpp"
 #include "core/jet/nozzle.hpp"
 #include "core/jet/scales.hpp"
 #include "core/observe/sampling.hpp"

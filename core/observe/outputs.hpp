@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/output_file.hpp"
+#include "core/base/output_file.hpp"
 #include "core/io/run_record.hpp"
 #include "core/jet/decomposition.hpp"
 #include "core/jet/observer.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/archive.hpp"
-#include "core/io/output_file.hpp"
+#include "core/base/output_file.hpp"
 
 namespace treejet {
 

@@ -1,8 +1,8 @@
 #pragma once
 /// `treejet run`: composes a deck's scene and simulates it, from its start or from a checkpoint.
 
+#include "core/base/output_file.hpp"
 #include "core/commands/command_line.hpp"
-#include "core/io/output_file.hpp"
 #include "parallel/ranks.hpp"
 
 namespace treejet {

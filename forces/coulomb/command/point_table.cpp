@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
-#include "core/io/output_file.hpp"
+#include "core/base/output_file.hpp"
 
 namespace treejet {
 

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "core/io/output_file.hpp"
+#include "core/base/output_file.hpp"
 #include "core/observe/sampling.hpp"
 #include "validation/support/scenes.hpp"
 #include "validation/support/scratch_directory.hpp"

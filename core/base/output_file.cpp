@@ -1,4 +1,4 @@
-#include "core/io/output_file.hpp"
+#include "core/base/output_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
