@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "core/base/number.hpp"
 #include "core/commands/companions.hpp"
 #include "core/io/frame_writer.hpp"
 
@@ -73,6 +74,18 @@ void add_threads(CLI::App& command, Arguments& a) {
       ->default_str("auto");
 }
 
+/// Numbers are written in options as they are in decks: 1d-5, +3.
+template <class T>
+CLI::Validator written_as_in_decks(Reading<T> (*reading_of)(std::string_view)) {
+  return CLI::Validator(
+      [reading_of](std::string& text) {
+        const Reading<T> reading = reading_of(text);
+        if (reading.problem.empty()) text = fmt::format("{}", reading.value);
+        return reading.problem.empty() ? "" : "expected a number, " + reading.problem;
+      },
+      "");
+}
+
 template <class T>
 void add_choice(CLI::App& command, const char* name, T& value, std::map<std::string, T> words,
                 const char* meaning) {
@@ -87,16 +100,21 @@ void add_field(CLI::App& app, Arguments& a) {
       field, "--coulomb", c.coulomb,
       {{"direct", CoulombSum::direct}, {"tree", CoulombSum::tree}, {"auto", CoulombSum::automatic}},
       "how to sum");
-  field.add_option("--accuracy", c.coulomb_accuracy, "relative L2 error of the field")->capture_default_str();
+  field.add_option("--accuracy", c.coulomb_accuracy, "relative L2 error of the field")
+      ->transform(written_as_in_decks(real_number))
+      ->capture_default_str();
   add_threads(field, a);
   field.add_option("--repeat", a.repeat, "evaluate so often, report the best time")
       ->check(CLI::Range(1, 1000000));
   field.add_flag("--compare", a.compare, "measure the error against direct summation");
   field.add_option("--out", a.field_out, "write x,y,z,q,ex,ey,ez to this file");
   field.add_flag("--json", a.json, "one JSON object instead of text");
-  field.add_option("--order", c.coulomb_order, "pin the order of the expansions");
-  field.add_option("--opening", c.coulomb_opening, "pin the opening");
-  field.add_option("--leaf", c.coulomb_leaf, "pin the points of a leaf");
+  field.add_option("--order", c.coulomb_order, "pin the order of the expansions")
+      ->transform(written_as_in_decks(integer));
+  field.add_option("--opening", c.coulomb_opening, "pin the opening")
+      ->transform(written_as_in_decks(real_number));
+  field.add_option("--leaf", c.coulomb_leaf, "pin the points of a leaf")
+      ->transform(written_as_in_decks(integer));
   add_choice<TreeOrder>(
       field, "--tree", c.coulomb_tree,
       {{"auto", TreeOrder::automatic}, {"chain", TreeOrder::chain}, {"space", TreeOrder::space}},

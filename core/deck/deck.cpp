@@ -10,9 +10,9 @@
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/base/lines.hpp"
+#include "core/base/number.hpp"
 #include "core/deck/constraints.hpp"
-#include "core/deck/lines.hpp"
-#include "core/deck/number.hpp"
 #include "core/deck/spelling.hpp"
 
 namespace treejet {
@@ -73,7 +73,7 @@ class Reader {
       if (finished)
         return error(place, last_directive, "expected nothing after it but comments, found {}",
                      quoted(words[0]));
-      finished = words[0] == last_directive;
+      finished = lower_case(words[0]) == last_directive;
       if (!finished)
         read_line(place, words, given_);
       else if (words.size() > 1)
@@ -88,7 +88,8 @@ class Reader {
     for (const std::string& line : deck_.overrides) {
       const Place place{fmt::format("--set {}", quoted(line)), after_all_lines};
       const Words words = words_of(line);
-      if (words.empty() || words[0] == last_directive || line.find_first_of("\r\n") != std::string::npos)
+      if (words.empty() || lower_case(words[0]) == last_directive ||
+          line.find_first_of("\r\n") != std::string::npos)
         error(place, "override", "expected one directive and its value");
       else
         read_line(place, words, overriding);
@@ -100,7 +101,8 @@ class Reader {
     given_.insert(given_.end(), overriding.begin(), overriding.end());
   }
 
-  void read_line(const Place& place, const Words& words, std::vector<Given>& given) {
+  void read_line(const Place& place, const Words& written, std::vector<Given>& given) {
+    const Words words = lower_case(written);
     const Spelling* spelling = spelling_at_start(words);
     const Spelling* intended = nearest_spelling(words, spelling ? spelling->words : 0);
     const std::string line = fmt::format("{}", fmt::join(words, " "));
@@ -118,8 +120,9 @@ class Reader {
       const Given* first = find(given, *spelling->directive);
       if (first && !first->faulty)
         return error(place, spelling->directive->words, "given twice, first at {}", first->place.name);
-      given.push_back(
-          {spelling->directive, place, {words.begin() + static_cast<long>(spelling->words), words.end()}});
+      given.push_back({spelling->directive,
+                       place,
+                       {written.begin() + static_cast<long>(spelling->words), written.end()}});
     }
     if (intended && intended->directive) given.push_back({intended->directive, place, {}, /*faulty*/ true});
     finish_misspelt_ |= intended && intended->text == last_directive;
@@ -174,8 +177,9 @@ class Reader {
 
 }  // namespace
 
-Deck parse_deck(std::string text, std::string name, std::vector<std::string> overrides) {
-  Deck deck{{}, std::move(text), std::move(name), std::move(overrides), {}};
+Deck parse_deck(std::string_view text, std::string name, std::vector<std::string> overrides) {
+  for (std::string& line : overrides) line = utf8(line);
+  Deck deck{{}, utf8(text), std::move(name), std::move(overrides), {}};
   if (deck.text.size() > largest_deck)
     throw InputError(deck.name + ": expected a deck, found more than 256 kB");
   if (deck.text.find('\0') != std::string::npos)
@@ -197,7 +201,7 @@ Deck read_deck(const std::string& path, const std::vector<std::string>& override
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (file.bad()) throw FileError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
   text.resize(static_cast<std::size_t>(file.gcount()));
-  return parse_deck(std::move(text), path, overrides);
+  return parse_deck(text, path, overrides);
 }
 
 }  // namespace treejet

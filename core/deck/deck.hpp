@@ -20,14 +20,14 @@ namespace treejet {
 
 struct Deck {
   Parameters parameters;
-  std::string text;  ///< the source, byte for byte
+  std::string text;  ///< the source, in UTF-8
   std::string name;  ///< of the file
   std::vector<std::string> overrides;
   std::vector<std::string> notes;  ///< what is legal but has no effect
 };
 
 Deck read_deck(const std::string& path, const std::vector<std::string>& overrides = {});
-Deck parse_deck(std::string text, std::string name, std::vector<std::string> overrides = {});
+Deck parse_deck(std::string_view text, std::string name, std::vector<std::string> overrides = {});
 
 /// The notes, one a line, as the terminal shows them.
 std::string notes(const Deck& deck);

@@ -9,8 +9,9 @@ namespace treejet {
 
 namespace {
 constexpr std::size_t shortest_stem = 3;
+/// One slip in five letters: with more, words of another meaning are near (ultimate, multirate).
 int allowance(std::string_view known) {
-  return (static_cast<int>(known.size()) + 1) / 3;
+  return std::max(known.size() < 4 ? 0 : 1, static_cast<int>(known.size()) / 5);
 }
 }  // namespace
 
@@ -34,7 +35,7 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 bool resembles(std::string_view word, std::string_view known) {
   if (std::min(word.size(), known.size()) >= shortest_stem &&
-      (known.starts_with(word) || word.starts_with(known)))
+      (known.starts_with(word) || word.starts_with(known) || word.ends_with(known)))
     return true;
   const auto difference = static_cast<long>(word.size()) - static_cast<long>(known.size());
   return std::abs(difference) <= allowance(known) && edit_distance(word, known) <= allowance(known);

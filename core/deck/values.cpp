@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
+#include "core/base/lines.hpp"
+#include "core/base/number.hpp"
 #include "core/deck/directives.hpp"
-#include "core/deck/number.hpp"
 #include "core/deck/observable_keys.hpp"
-#include "core/deck/suggestion.hpp"
 #include "core/jet/schemes.hpp"
 
 namespace treejet {
@@ -97,8 +97,13 @@ std::string found(Arguments arguments) {
   return "found " + (arguments.empty() ? "nothing" : quoted(fmt::format("{}", fmt::join(arguments, " "))));
 }
 
-std::string meant(std::string_view nearest) {
-  return nearest.empty() ? "" : "; did you mean " + std::string(nearest) + "?";
+/// The one word that begins so. A value is never guessed by its letters: `on` is not `no`, gc is not vc.
+std::string meant(std::string_view beginning, const std::vector<std::string_view>& known) {
+  const auto continues = [&](std::string_view word) {
+    return beginning.size() > 1 && word.starts_with(beginning);
+  };
+  if (std::count_if(known.begin(), known.end(), continues) != 1) return {};
+  return fmt::format("; did you mean {}?", *std::find_if(known.begin(), known.end(), continues));
 }
 
 /// What the argument is called in documentation.
@@ -172,26 +177,29 @@ std::string read(const Directive& d, Arguments arguments, std::vector<std::strin
   if (arguments.empty()) return expected(d) + found(arguments);
   const std::vector<std::string_view> keys = known_keys();
   std::vector<std::string> unknown;
-  for (const std::string& key : arguments)
+  std::vector<std::string> lower(arguments.begin(), arguments.end());
+  lower = lower_case(std::move(lower));
+  for (const std::string& key : lower)
     if (std::find(keys.begin(), keys.end(), key) == keys.end())
-      unknown.push_back(fmt::format("found {}{}", quoted(key), meant(nearest(key, keys))));
+      unknown.push_back(fmt::format("found {}{}", quoted(key), meant(key, keys)));
   if (!unknown.empty())
     return fmt::format("expected keys of observables, {}; they are {}", fmt::join(unknown, ", "),
                        fmt::join(keys, " "));
-  target.assign(arguments.begin(), arguments.end());
+  target = std::move(lower);
   return {};
 }
 
 template <class T>
 std::string read(const Directive& d, Arguments arguments, T& target) {
   if (arguments.empty()) return expected(d) + found(arguments);
+  const std::string word = lower_case(arguments[0]);
   for (const auto& w : words_of(T{})) {
-    if (w.word != arguments[0]) continue;
+    if (w.word != word) continue;
     if (arguments.size() > 1) return trailing(arguments);
     target = w.value;
     return {};
   }
-  return expected(d) + found(arguments) + meant(nearest(arguments[0], known_words(T{})));
+  return expected(d) + found(arguments) + meant(word, known_words(T{}));
 }
 
 std::string text(double value) {

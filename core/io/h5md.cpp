@@ -8,7 +8,7 @@
 #include <map>
 
 #include "core/base/error.hpp"
-#include "core/deck/lines.hpp"
+#include "core/base/lines.hpp"
 #include "core/deck/observable_keys.hpp"
 
 namespace treejet {

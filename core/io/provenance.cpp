@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/base/version.hpp"
-#include "core/deck/lines.hpp"
+#include "core/base/lines.hpp"
 #include "core/io/hdf5_file.hpp"
 
 namespace treejet {
@@ -25,7 +25,7 @@ Provenance provenance(const Deck& deck, std::string_view isa_name) {
   p.libraries = fmt::format("HDF5 {}, Eigen {}.{}.{}, fmt {}.{}.{}", hdf5_version(), EIGEN_WORLD_VERSION,
                             EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, FMT_VERSION / 10000,
                             FMT_VERSION / 100 % 100, FMT_VERSION % 100);
-  p.deck_name = std::filesystem::path(deck.name).filename().string();
+  p.deck_name = utf8(std::filesystem::path(deck.name).filename().string());
   return p;
 }
 
@@ -36,7 +36,7 @@ std::string program(const Provenance& p) {
 
 std::string deck_description(std::string_view name, std::string_view deck,
                              const std::vector<std::string>& overrides) {
-  std::string text = fmt::format("deck {}\n", name);
+  std::string text = fmt::format("deck {}\n", utf8(name));
   for (const std::string_view line : lines_of(deck)) text += fmt::format("| {}\n", line);
   for (const auto& line : overrides) text += fmt::format("--set \"{}\"\n", line);
   return text;

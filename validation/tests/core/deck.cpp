@@ -8,9 +8,10 @@
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "core/base/lines.hpp"
+#include "core/base/number.hpp"
 #include "core/deck/deck.hpp"
 #include "core/deck/directives.hpp"
-#include "core/deck/number.hpp"
 #include "core/deck/observable_keys.hpp"
 #include "core/deck/suggestion.hpp"
 #include "validation/tests/core/broken_decks.hpp"
@@ -190,6 +191,65 @@ TEST_CASE("What is not a number is never read as one", "[deck]") {
   CHECK(integer("+3").value == 3);
   CHECK(integer("-3").value == -3);
   CHECK(integer("2147483647").value == 2147483647);
+}
+
+TEST_CASE("A hint names the same number well spelt, and none where two could be meant", "[deck]") {
+  const auto hint = [](const char* word) {
+    const std::string problem = real_number(word).problem, question = "; did you mean ";
+    const std::size_t at = problem.find(question);
+    return at == std::string::npos ? "" : problem.substr(at + question.size());
+  };
+  CHECK(hint("1.q4") == "1.d4?");
+  CHECK(hint("1x10^4") == "1d4?");
+  CHECK(hint("2.5*10**-3") == "2.5d-3?");
+  CHECK(hint("1.0-8") == "1.0d-8?");
+  CHECK(hint("20,5") == "20.5?");
+  CHECK(hint("1,5d3") == "1.5d3?");
+  CHECK(hint("0.02.d0") == "0.02d0?");
+  CHECK(hint("1.d\xe2\x88\x92"
+             "3") == "1.d-3?");  // U+2212
+  CHECK(hint("\xe2\x80\x93"
+             "5.") == "-5.?");  // en dash: the sign is kept
+  CHECK(real_number("1.d\xe2\x88\x92"
+                    "3")
+            .problem.find("U+2212") != std::string::npos);
+  for (const char* ambiguous : {"44,000", "1,234,567", "0x14", "2o", "1.2.3", "12a", "5O.", "1d4d"}) {
+    INFO(ambiguous);
+    CHECK(hint(ambiguous) == "");
+  }
+  CHECK(real_number("44,000").problem.find("write a decimal point") != std::string::npos);
+}
+
+TEST_CASE("No value is guessed by its letters: on is not no, gc is not vc", "[deck]") {
+  for (const char* line :
+       {"gravity on", "gravity ys", "printstat list t gc", "multirate off", "integrator huen"}) {
+    INFO(line);
+    const std::string said = message(sound_deck, {line});
+    CHECK(said.find("found '") != std::string::npos);
+    CHECK(said.find("did you mean") == std::string::npos);
+  }
+  CHECK(message(altered("", "gravity ye")).find("did you mean yes?") != std::string::npos);
+}
+
+TEST_CASE("A comment in Latin-1 is kept in UTF-8, which all files are written in", "[deck]") {
+  const std::string latin = altered("viscosity 20.", "viscosity 20. ! Viskosit\xe4t");
+  const Deck deck = parse_deck(latin, name, {"gravity yes # \xe9t\xe9"});
+  CHECK(deck.text.find("! Viskosit\xc3\xa4t") != std::string::npos);
+  CHECK(deck.overrides[0] == "gravity yes # \xc3\xa9t\xc3\xa9");
+  CHECK(parse_deck(deck.text, name, deck.overrides).text == deck.text);  // a resumed run reads the same
+}
+
+TEST_CASE("UTF-8 stays as it is, anything else is read as Latin-1", "[deck]") {
+  for (const char* valid :
+       {"", "plain", "\xc3\xa4", "\xe2\x88\x92", "\xf0\x9f\x8c\x80", "\xef\xbf\xbd", "\xf4\x8f\xbf\xbf"})
+    CHECK(utf8(valid) == valid);
+  CHECK(utf8("\xe4") == "\xc3\xa4");
+  CHECK(utf8("\xff") == "\xc3\xbf");
+  // overlong, surrogate, beyond U+10FFFF, cut short: RFC 3629 allows none of them
+  for (const char* invalid : {"\xc0\x80", "\xe0\x80\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xe2\x88"}) {
+    CHECK(utf8(invalid) != invalid);
+    CHECK(utf8(utf8(invalid)) == utf8(invalid));
+  }
 }
 
 TEST_CASE("Blanks, tabs, case, comments and line ends do not matter", "[deck]") {

@@ -1,10 +1,15 @@
-#include "core/deck/number.hpp"
+#include "core/base/number.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <regex>
+#include <vector>
+
+#include "core/base/lines.hpp"
 
 namespace treejet {
 
@@ -45,33 +50,67 @@ std::string c_notation(std::string_view word) {
   return number + 'e' + exponent;
 }
 
-/// The well-formed number one slip of the pen away, or the one the word begins with; empty if there is none.
-std::string mended(std::string_view word) {
-  if (word.size() > longest_word_worth_mending) return {};
-  const auto well_formed = [](const std::string& s) { return !c_notation(s).empty(); };
-  for (std::size_t i = word.size(); i-- > 0;) {
-    std::string candidate(word);
-    if (word[i] == ',') candidate[i] = '.';
-    if (is_sign(word[i]) && i > 0) candidate.insert(i, 1, 'd');
-    if (well_formed(candidate)) return candidate;
+struct Slip {
+  std::regex written;
+  std::string meant;  ///< empty: more than one number could be meant
+  std::string said = {};
+};
+
+/// Ways to spell a number that are not ours. None changes its magnitude.
+const std::vector<Slip>& slips() {
+  const auto pattern = [](const char* text) { return std::regex(text, std::regex::icase); };
+  static const std::vector<Slip> all = {
+      {pattern("[^,]*,[0-9]{3}(|[^0-9].*)|.*,.*,.*"), "",
+       ": a comma groups digits for some and begins decimals for others; write a decimal point, and nothing "
+       "between thousands"},
+      {pattern("([-+]?[0-9]*),([0-9]*)(|d.*|e.*)"), "$1.$2$3"},
+      {pattern("([-+]?[0-9.]+)([-+][0-9]+)"), "$1d$2"},    // Fortran's 1.0-8
+      {pattern("([-+]?[0-9.]+)q([-+]?[0-9]+)"), "$1d$2"},  // quadruple precision
+      {pattern("([-+]?[0-9.]+)[x*]10(\\^|\\*\\*)([-+]?[0-9]+)"), "$1d$3"},
+      {pattern("([-+]?[0-9]*)\\.\\.+([0-9]*.*)"), "$1.$2"},
+      {pattern("([-+]?[0-9]*\\.[0-9]*)\\.([de].*)"), "$1$2"},  // 0.02.d0
+      {pattern("([-+]?[0-9.]+[de][-+]?[0-9]+)\\."), "$1"},
+      {pattern("([-+]?[0-9]+)_([0-9]+)"), "$1$2"},
+  };
+  return all;
+}
+
+/// The word with ASCII's minus where a typographic one stands: U+2212, or the dashes U+2010 to U+2014.
+std::string with_ascii_minus(std::string_view word) {
+  std::string plain;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    const std::string_view three = word.substr(i, 3);
+    const bool dash =
+        three.starts_with("\xe2\x80") && three.size() == 3 && three[2] >= '\x90' && three[2] <= '\x94';
+    const bool minus = dash || three == "\xe2\x88\x92";
+    plain += minus ? '-' : word[i];
+    if (minus) i += 2;
   }
-  for (std::size_t i = word.size(); i-- > 0;) {
-    std::string candidate(word);
-    if (well_formed(candidate.erase(i, 1))) return candidate;
-  }
-  for (std::size_t length = word.size(); length-- > 0;)
-    if (const std::string candidate(word.substr(0, length)); well_formed(candidate)) return candidate;
-  return {};
+  return plain;
+}
+
+std::string meant(const std::string& number) {
+  return c_notation(number).empty() ? "" : fmt::format("; did you mean {}?", number);
 }
 
 std::string not_a_number(std::string_view word) {
-  const std::string nearest = mended(word);
-  return fmt::format("found {}{}", quoted(word),
-                     nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest));
+  const std::string found = "found " + quoted(word);
+  if (word.size() > longest_word_worth_mending) return found;
+  const std::string plain = with_ascii_minus(word);
+  if (plain != word)
+    return fmt::format("{}, where a minus or dash is not the one of the keyboard (U+2212 or the like){}",
+                       found, meant(plain));
+  for (const Slip& slip : slips()) {
+    if (!std::regex_match(plain, slip.written)) continue;
+    return found +
+           (slip.meant.empty() ? slip.said : meant(std::regex_replace(plain, slip.written, slip.meant)));
+  }
+  return found;
 }
 
-bool spells_no_finite_number(std::string_view word) {
-  if (!word.empty() && is_sign(word[0])) word.remove_prefix(1);
+bool spells_no_finite_number(std::string_view written) {
+  std::string word = lower_case(written);
+  if (!word.empty() && is_sign(word[0])) word.erase(0, 1);
   for (const std::string_view name : {"nan", "inf", "infinity"})
     if (word == name) return true;
   return false;
@@ -88,6 +127,12 @@ std::string quoted(std::string_view word) {
       shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
   }
   return fmt::format("'{}{}'", shown, word.size() > longest_word_worth_mending ? "..." : "");
+}
+
+std::size_t number_length(std::string_view word) {
+  std::size_t length = std::min(word.size(), longest_word_worth_mending);
+  while (length > 0 && c_notation(word.substr(0, length)).empty()) --length;
+  return length;
 }
 
 Reading<double> real_number(std::string_view word) {
