@@ -163,7 +163,11 @@ std::optional<Arguments> command_line(int argc, char** argv, const std::string& 
   auto& run = *app.add_subcommand("run", "Run a deck: statdat.dat, traj.xyz and a table on the terminal");
   auto* deck = add_deck(run, a);
   auto* out =
-      run.add_option("--out", a.out, "directory of the results, made if missing")->capture_default_str();
+      run.add_option("--out", a.out, "directory of the results, made if missing")
+          ->check(CLI::Validator(
+              [](const std::string& name) { return name.empty() ? "expected a name, found nothing" : ""; },
+              ""))
+          ->capture_default_str();
   add_threads(run, a);
   run.add_flag("--quiet", a.quiet, "no table, no progress, no summary");
   auto* force = run.add_flag("--force", a.force, "replace results that are there already");

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <span>
 
 #include "core/deck/observable_keys.hpp"
+#include "core/jet/scales.hpp"
 #include "core/jet/schemes.hpp"
 #include "core/jet/stiffness.hpp"
 
@@ -32,6 +34,7 @@ class Relations {
     fluid();
     output();
     pieces();
+    if (composable()) finite_scales();
   }
 
  private:
@@ -46,15 +49,15 @@ class Relations {
                       scheme_words(false, "and")));
     error(timestep >= p_.final_time, {"timestep", "final time"},
           fmt::format("expected less than final time ({} s)", p_.final_time));
-    error(p_.print_time.value_or(0) > p_.final_time, {"print time", "final time"},
-          fmt::format("expected at most final time ({} s)", p_.final_time));
   }
 
   void initial_jet() {
     const double length = p_.initial_length, radius = p_.nozzle_cross;
-    if (length >= p_.collector_distance)
+    const bool flows = p_.inserting || p_.removing;  // else a jet may reach from nozzle to collector
+    if (flows ? length >= p_.collector_distance : length > p_.collector_distance)
       return error(true, {"initial length", "collector distance"},
-                   fmt::format("expected less than collector distance ({} cm)", p_.collector_distance));
+                   fmt::format("expected {} collector distance ({} cm)", flows ? "less than" : "at most",
+                               p_.collector_distance));
     if (p_.resolution && !divides(*p_.resolution)) return;
     const bool as_points = is_given("points"), as_resolution = is_given("resolution");
     if (as_points == as_resolution) return;
@@ -159,6 +162,8 @@ class Relations {
     constexpr double most_samples = 1e9;
     const double timestep = p_.timestep.value_or(0);
     if (!seconds) return;
+    error(*seconds > p_.final_time, {words, "final time"},
+          fmt::format("expected at most final time ({} s)", p_.final_time));
     error(p_.final_time / *seconds > most_samples, {words, "final time"},
           fmt::format("expected at least {:.3g} s: at most {:.0e} samples of final time ({} s)",
                       p_.final_time / most_samples, most_samples, p_.final_time));
@@ -166,6 +171,47 @@ class Relations {
           {words, "timestep"},
           fmt::format("expected at least {:.3g} s: at most {:.0e} samples of a step ({} s)",
                       timestep / most_samples_of_a_step, most_samples_of_a_step, timestep));
+  }
+
+  /// Everything that scales and groups are made of is given and sound.
+  bool composable() const {
+    const std::span<const Directive> all = directives();
+    return is_given("points") != is_given("resolution") &&
+           std::all_of(all.begin(), all.end(), [&](const Directive& d) { return sound(d.words); });
+  }
+
+  /// Each parameter is a number, but their products may be none: they overflow, or what is not zero becomes
+  /// it.
+  void finite_scales() {
+    const Scales s = scales(p_);
+    const Groups g = groups(p_);
+    const bool charged = p_.density_charge > 0;
+    struct Product {
+      const char* name;
+      double value;
+      bool positive;
+    };
+    const Product products[] = {{"length", s.length, true},
+                                {"time", s.time, true},
+                                {"velocity", s.velocity, true},
+                                {"mass", s.mass, true},
+                                {"charge", s.charge, charged},
+                                {"Q (Coulomb)", g.Q, charged},
+                                {"V (external field)", g.V, charged && p_.external_potential > 0},
+                                {"F_ve (viscoelastic)", g.F_ve, true},
+                                {"A (surface tension)", g.A, p_.surface_tension > 0},
+                                {"F_g (gravity)", g.F_g, p_.gravity},
+                                {"K_s (nozzle)", g.K_s, p_.perturb && p_.perturb_frequency > 0},
+                                {"H (collector)", g.H, true},
+                                {"L_step (element)", g.L_step, true}};
+    for (const Product& product : products) {
+      if (std::isfinite(product.value) && (!product.positive || std::isnormal(product.value))) continue;
+      findings_.errors.push_back(
+          {deck_,
+           fmt::format("the scale or group {} is {}: the parameters are too far apart for double precision",
+                       product.name, product.value)});
+      return;
+    }
   }
 
   /// What a jet in pieces cannot do.
@@ -180,7 +226,7 @@ class Relations {
           "expected multirate no: all forces are evaluated at each stage");
     error(p_.checkpoint.has_value(), {"parallel", "checkpoint"},
           "expected no checkpoint: none can be written");
-    if (sound("viscosity") && sound("elastic modulus"))
+    if (composable())
       error(properties(chosen_scheme(p_)).implicit, {"parallel", "integrator"},
             "expected an explicit integrator: the local terms of a chain in pieces are not solved for");
     for (const auto* list : {&p_.print_list, &p_.printstat_list})

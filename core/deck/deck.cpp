@@ -13,6 +13,8 @@
 #include "core/base/lines.hpp"
 #include "core/base/number.hpp"
 #include "core/deck/constraints.hpp"
+#include "core/deck/foreign.hpp"
+#include "core/deck/slips.hpp"
 #include "core/deck/spelling.hpp"
 
 namespace treejet {
@@ -44,6 +46,12 @@ std::string without_equals(std::string line) {
   return line;
 }
 
+/// "viscosity = 30." as people write to a command line.
+std::string with_blank_for_equals(std::string line) {
+  if (const std::size_t place = line.find('='); place != std::string::npos) line[place] = ' ';
+  return line;
+}
+
 /// Reads in two passes: what is given where, then, when the overrides have had their say, the values.
 class Reader {
  public:
@@ -52,8 +60,11 @@ class Reader {
   void read() {
     read_text();
     read_overrides();
-    for (Given& g : given_)
-      if (!g.faulty) assign_value(g);
+    const Directive& units = directive("units");  // says what the other numbers are in
+    for (const bool first : {true, false})
+      for (Given& g : given_)
+        if (!g.faulty && (g.directive == &units) == first) assign_value(g);
+    report_foreign();
     check_presence();
     check_relations(whole_deck_, given_, deck_.parameters, findings_);
     if (!findings_.errors.empty())
@@ -87,7 +98,7 @@ class Reader {
     std::vector<Given> overriding;
     for (const std::string& line : deck_.overrides) {
       const Place place{fmt::format("--set {}", quoted(line)), after_all_lines};
-      const Words words = words_of(line);
+      const Words words = words_of(with_blank_for_equals(line));
       if (words.empty() || lower_case(words[0]) == last_directive ||
           line.find_first_of("\r\n") != std::string::npos)
         error(place, "override", "expected one directive and its value");
@@ -114,8 +125,8 @@ class Reader {
     } else if (!spelling) {
       unknown(place, words[0]);
     } else if (spelling->foreign) {
-      error(place, spelling->text, "JETSPIN's, not modelled here: {}", spelling->foreign->advice);
-      intended = directive_at_start(words);
+      keep_foreign(place, *spelling->foreign, line, std::span(words).subspan(spelling->words));
+      intended = foreign_intended(*spelling->foreign, words);
     } else {
       const Given* first = find(given, *spelling->directive);
       if (first && !first->faulty)
@@ -137,9 +148,68 @@ class Reader {
   }
 
   void assign_value(Given& g) {
+    if (std::holds_alternative<std::vector<std::string> Parameters::*>(g.directive->member))
+      drop_foreign_keys(g);
     const std::string problem = assign(*g.directive, g.arguments, deck_.parameters);
     g.faulty = !problem.empty();
-    if (g.faulty) error(g.place, g.directive->words, "{}", problem);
+    if (g.faulty) return error(g.place, g.directive->words, "{}", problem);
+    if (g.arguments.size() != 1) return;
+    const std::string slip =
+        likely_slip(*g.directive, real_number(g.arguments[0]).value, deck_.parameters.units);
+    if (!slip.empty()) note(g.place, g.directive->words, "{}", slip);
+  }
+
+  void drop_foreign_keys(Given& g) {
+    Words left_out;
+    for (const ForeignKey& foreign : foreign_keys())
+      if (std::erase_if(g.arguments, [&](const std::string& key) { return lower_case(key) == foreign.key; }) >
+          0)
+        left_out.push_back(fmt::format("{} ({})", foreign.key, foreign.feature));
+    if (!left_out.empty())
+      note(g.place, g.directive->words, "JETSPIN's keys of what is not modelled are left out: {}",
+           fmt::join(left_out, ", "));
+    later_jetspin_ |= !left_out.empty();
+  }
+
+  void keep_foreign(const Place& place, const Foreign& f, const std::string& line,
+                    std::span<const std::string> rest) {
+    const auto same = [&](const ForeignLines& lines) { return lines.feature == f.feature; };
+    auto lines = std::find_if(foreign_.begin(), foreign_.end(), same);
+    if (lines == foreign_.end()) lines = foreign_.insert(foreign_.end(), {f.feature, f.advice, place, line});
+    ++lines->count;
+    lines->harmless &= f.harmless;
+    lines->off |= rest.size() == 1 && !f.off.empty() && reads_as(rest[0], f.off);
+    later_jetspin_ |= f.since_1_21;
+  }
+
+  /// The same word, or the same number.
+  static bool reads_as(const std::string& word, std::string_view value) {
+    const Reading<double> number = real_number(word), wanted = real_number(value);
+    return word == value ||
+           (number.problem.empty() && wanted.problem.empty() && number.value == wanted.value);
+  }
+
+  /// `system 4` is about our system, too; it is not missing besides.
+  static const Spelling* foreign_intended(const Foreign& f, const Words& words) {
+    const bool a_value = f.words.starts_with("system ") || f.words.starts_with("integrator ");
+    return a_value ? directive_at_start(words) : nullptr;
+  }
+
+  void report_foreign() {
+    for (const ForeignLines& f : foreign_) {
+      const std::string count = f.count > 1 ? fmt::format(" ({} lines on {})", f.count, f.feature) : "";
+      if (f.harmless || f.off)
+        note(f.first, f.first_line, "left out{}{}{}", count, f.off ? ": nothing here differs from it" : ": ",
+             f.off ? "" : f.advice);
+      else
+        error(f.first, f.first_line, "JETSPIN's, not modelled here{}: {}", count, f.advice);
+    }
+    if (later_jetspin_)
+      findings_.notes.push_back(
+          {whole_deck_,
+           "the Coulomb law is that of points, 1/R^2, and beads are released with the paper's dragging "
+           "velocity; "
+           "JETSPIN from 1.21 on means 1/(R + a)^2, and no dragging velocity without dragvel yes"});
   }
 
   void check_presence() {
@@ -163,6 +233,12 @@ class Reader {
   }
 
   template <class... T>
+  void note(const Place& place, std::string_view about, fmt::format_string<T...> what, T&&... values) {
+    const std::string text = fmt::format(what, std::forward<T>(values)...);
+    findings_.notes.push_back({place, fmt::format("{}: {}", about, text)});
+  }
+
+  template <class... T>
   void error(const Place& place, std::string_view about, fmt::format_string<T...> what, T&&... values) {
     const std::string text = fmt::format(what, std::forward<T>(values)...);
     findings_.errors.push_back({place, fmt::format("{}: {}", about, text)});
@@ -171,7 +247,9 @@ class Reader {
   Deck& deck_;
   const Place whole_deck_;
   std::vector<Given> given_;
+  std::vector<ForeignLines> foreign_;
   Findings findings_;
+  bool later_jetspin_ = false;  ///< words that JETSPIN knows since 1.21
   bool finish_misspelt_ = false;
 };
 

@@ -19,6 +19,7 @@ constexpr Check below_one{"positive and below 1", [](double v) { return v > 0 &&
 constexpr Check one_or_three{"1 (straight jet) or 3 (three dimensions)",
                              [](double v) { return v == 1 || v == 3; }};
 constexpr Check a_count{"from 1 to 100000000", [](double v) { return v >= 1 && v <= 1e8; }};
+constexpr Check a_factor{"from 1e-100 to 1e100", [](double v) { return v >= 1e-100 && v <= 1e100; }};
 constexpr Check an_order{tree_parameters::orders, tree_parameters::is_order};
 constexpr Check an_opening{tree_parameters::openings, tree_parameters::is_opening};
 constexpr Check a_leaf{tree_parameters::leaf_sizes, tree_parameters::is_leaf};
@@ -33,7 +34,7 @@ const Directive table[] = {
      .meaning = "model of the jet: 1 straight along x, 3 in three dimensions",
      .mandatory = true, .example = "3", .synonyms = "systype", .heading = "Model"},
     {.words = "units", .member = &P::units,
-     .meaning = "cgs, or real: density charge in C/L and external potential in V, all else in CGS"},
+     .meaning = "cgs, or real: a bare density charge is in C/L, a bare external potential in V, all else in CGS"},
     {.words = "seed", .member = Ignored{},
      .meaning = "accepted for JETSPIN's sake: nothing here is random", .absent = "no effect"},
 
@@ -60,7 +61,7 @@ const Directive table[] = {
      .meaning = "length of an element; must divide initial length", .or_else = "points"},
     {.words = "density mass", .member = &P::density_mass, .unit = "g/cm^3", .check = positive,
      .meaning = "mass density", .mandatory = true, .example = "0.84"},
-    {.words = "density charge", .member = &P::density_charge, .unit = "statC/cm^3", .check = not_negative,
+    {.words = "density charge", .member = &P::density_charge, .unit = "statC/cm^3", .real_unit = "C/L", .check = not_negative,
      .meaning = "charge density", .mandatory = true, .example = "44000."},
     {.words = "viscosity", .member = &P::viscosity, .unit = "g/(cm s)", .check = positive,
      .meaning = "viscosity", .mandatory = true, .example = "20."},
@@ -101,7 +102,7 @@ const Directive table[] = {
     {.words = "removing", .member = &P::removing, .meaning = "the collector takes beads away", .example = "yes"},
     {.words = "collector distance", .member = &P::collector_distance, .unit = "cm", .check = positive,
      .meaning = "distance of the collector from the nozzle", .mandatory = true, .example = "16."},
-    {.words = "external potential", .member = &P::external_potential, .unit = "statV", .check = not_negative,
+    {.words = "external potential", .member = &P::external_potential, .unit = "statV", .real_unit = "V", .check = not_negative,
      .meaning = "potential between nozzle and collector", .example = "30.02"},
     {.words = "gravity", .member = &P::gravity, .meaning = "gravity along x", .example = "yes"},
     {.words = "cutoff", .member = &P::cutoff, .unit = "cm", .check = positive,
@@ -143,42 +144,14 @@ const Directive table[] = {
      .meaning = "interval of the frames of the XYZ trajectory", .absent = "no file"},
     {.words = "print xyz maxnum", .member = &P::xyz_maxnum, .check = a_count,
      .meaning = "beads in a frame, from the collector on", .synonyms = "print xyz maxnumber"},
-    {.words = "print xyz rescale", .member = &P::xyz_rescale, .check = positive,
-     .meaning = "factor on the coordinates, which are in cm"},
+    {.words = "print xyz rescale", .member = &P::xyz_rescale, .check = a_factor,
+     .meaning = "factor on the coordinates, which are in cm", .synonyms = "print xyz rescalexyz"},
     {.words = "print hdf5", .member = &P::print_hdf5, .unit = "s", .check = positive,
      .meaning = "interval of the frames of the HDF5 trajectory (H5MD), for all tools that read HDF5 and for ParaView",
      .absent = "no file"},
     {.words = "checkpoint", .member = &P::checkpoint, .unit = "s", .check = positive,
      .meaning = "wall-clock time between checkpoints, from which `treejet run --resume` continues",
      .absent = "one when a signal or --walltime stops the run"},
-};
-
-const Foreign foreign_table[] = {
-    {"system 2", "JETSPIN has no working system 2; write system 1 or system 3"},
-    {"system 4", "air drag is not modelled; write system 3 and leave the airdrag lines out"},
-    {"integrator 4", "JETSPIN's stochastic scheme is not modelled; write integrator 1, 2 or 3"},
-    {"cutoff points", "JETSPIN 1.00 took the number for a length in cm; write cutoff and that length, or leave the line "
-                      "out for the full sum"},
-    {"airdrag", "air drag is not modelled; leave the line out"},
-    {"variable mass", "all beads are released with the same mass; leave the line out"},
-    {"variable charge", "all beads are released with the same charge; leave the line out"},
-    {"kvfluid", "the fluid is Maxwell's, or Herschel-Bulkley's with hbfluid; leave the line out"},
-    {"dynamic refinement", "elements are not refined; choose a smaller resolution"},
-    {"restart", "a run starts from its deck; leave the line out"},
-    {"dragvel", "beads are always released with the paper's dragging velocity; leave the line out"},
-    {"primary cutoff", "the Coulomb sum is split by the program, see multirate; leave the line out"},
-    {"maximum displ", "the Coulomb sum is split by the program, see multirate; leave the line out"},
-    {"maximum displacement", "the Coulomb sum is split by the program, see multirate; leave the line out"},
-    {"multiple step", "the Coulomb sum is split by the program; write multirate auto or no"},
-    {"external potential type", "the potential is constant; leave the line out"},
-    {"external potential freq", "the potential is constant; leave the line out"},
-    {"external potential time", "the potential is constant; leave the line out"},
-    {"print binary", "binary trajectories are not written; write print xyz and an interval in s"},
-    {"printstat binary", "binary statistics are not written; write printstat list and its keys"},
-    {"print pdb", "PDB files are not written; write print xyz and an interval in s"},
-    {"print xyz frame", "all frames go to one file; write print xyz and an interval in s"},
-    {"print xyz rescalexyz", "write print xyz rescale and the factor"},
-    {"print rescalexyz", "write print xyz rescale and the factor"},
 };
 // clang-format on
 
@@ -187,8 +160,9 @@ const Foreign foreign_table[] = {
 std::span<const Directive> directives() {
   return table;
 }
-std::span<const Foreign> foreign_directives() {
-  return foreign_table;
+
+std::string_view bare_unit(const Directive& d, Units units) {
+  return units == Units::real && !d.real_unit.empty() ? d.real_unit : d.unit;
 }
 
 const Directive& directive(std::string_view words) {

@@ -3,8 +3,8 @@
 /// off it.
 ///
 /// A row binds the words of a directive to a member of Parameters; the member's type says which argument it
-/// takes and a default-constructed Parameters says its default. A second table holds the directives of
-/// JETSPIN that Treejet does not model, each with what to do instead.
+/// takes and a default-constructed Parameters says its default. The directives of JETSPIN that
+/// Treejet does not model are in core/deck/foreign.hpp.
 
 #include <span>
 #include <string>
@@ -34,7 +34,8 @@ using Member =
 struct Directive {
   std::string_view words;
   Member member;
-  std::string_view unit = {};
+  std::string_view unit = {};       ///< of a bare number; its dimension is that of every unit it may carry
+  std::string_view real_unit = {};  ///< of a bare number under `units real`, where it differs
   Check check = {"", nullptr};
   std::string_view meaning;
   bool mandatory = false;
@@ -46,21 +47,18 @@ struct Directive {
   std::string_view heading = {};   ///< opens a group of rows
 };
 
-struct Foreign {
-  std::string_view words;
-  std::string_view advice;
-};
-
 inline constexpr std::string_view last_directive = "finish";
 
 std::span<const Directive> directives();
-std::span<const Foreign> foreign_directives();
 
 /// The row with these words; std::logic_error if there is none.
 const Directive& directive(std::string_view words);
 
-/// Sets the member. Returns what is wrong with the arguments ("expected ..., found ..."), empty if nothing
-/// is.
+/// The unit a number without one is in.
+std::string_view bare_unit(const Directive& directive, Units units);
+
+/// Sets the member, in the unit of a bare number. Parameters::units must be set before. Returns what is wrong
+/// with the arguments ("expected ..., found ..."), empty if nothing is.
 std::string assign(const Directive& directive, std::span<const std::string> arguments,
                    Parameters& parameters);
 

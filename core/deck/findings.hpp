@@ -32,6 +32,15 @@ struct Given {
   bool faulty = false;  ///< misspelt or with a bad value: reported, and not to be judged further
 };
 
+/// The lines of a deck about one feature of JETSPIN's that is not modelled.
+struct ForeignLines {
+  std::string_view feature, advice;
+  Place first;
+  std::string first_line;
+  int count = 0;
+  bool off = false, harmless = true;
+};
+
 /// The first that gives the directive, null if none does.
 inline const Given* find(const std::vector<Given>& given, const Directive& directive) {
   const auto found =

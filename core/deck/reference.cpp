@@ -8,7 +8,9 @@
 
 #include "core/deck/deck.hpp"
 #include "core/deck/directives.hpp"
+#include "core/deck/foreign.hpp"
 #include "core/deck/observable_keys.hpp"
+#include "core/deck/units.hpp"
 
 namespace treejet {
 
@@ -20,6 +22,12 @@ std::string standard(const Directive& d) {
   if (!d.or_else.empty()) return fmt::format("this or {}", d.or_else);
   if (!d.absent.empty()) return std::string(d.absent);
   return value_text(d, Parameters{});
+}
+
+/// The unit of a bare number, then those it may carry.
+std::string units_accepted(const Directive& d) {
+  if (d.unit.empty()) return {};
+  return fmt::format("{} ({})", d.unit, usual_units(unit(d.unit).value().dimension));
 }
 
 std::string remark(const Directive& d) {
@@ -38,8 +46,8 @@ std::string cell(const std::string& text) {
 
 std::string deck_template() {
   std::string deck =
-      "# A deck for treejet. Comments go from # or ! to the end of the line; lengths are in cm, all else in "
-      "CGS, too.\n"
+      "# A deck for treejet. Comments go from # or ! to the end of the line; a number may "
+      "carry a unit, as\n# in 10 kV, 1.2 Pa s or 839 kg/m3; without one it is in CGS.\n"
       "# A directive behind a # is optional and shown with its default, or with the kind of value it "
       "takes.\n";
   for (const Directive& d : directives()) {
@@ -61,8 +69,8 @@ std::string directive_reference() {
           fmt::format("{}### {}\n\n| directive | value | unit | default | meaning |\n|---|---|---|---|---|\n",
                       table.empty() ? "" : "\n", d.heading);
     const std::string also = d.synonyms.empty() ? "" : fmt::format(" (also: {})", d.synonyms);
-    table += fmt::format("| `{}` | {} | {} | {} | {}{} |\n", d.words, cell(argument(d)), d.unit, standard(d),
-                         d.meaning, also);
+    table += fmt::format("| `{}` | {} | {} | {} | {}{} |\n", d.words, cell(argument(d)), units_accepted(d),
+                         standard(d), d.meaning, also);
   }
   table += fmt::format("| `{}` | | | mandatory | last line of the deck |\n", last_directive);
   table +=

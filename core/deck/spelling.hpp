@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/deck/directives.hpp"
+#include "core/deck/foreign.hpp"
 
 namespace treejet {
 

@@ -8,7 +8,8 @@ namespace treejet {
 /// Least number of insertions, deletions, replacements and swaps of neighbours that turn a into b.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// Is the word so near to the known one, or its beginning, or with more around it, that one may ask "did you mean"?
+/// Is the word so near to the known one, or its beginning, or with more around it, that one may ask "did you
+/// mean"?
 bool resembles(std::string_view word, std::string_view known);
 
 /// The nearest of the known words (anything iterable as string_view), empty if none resembles the word.

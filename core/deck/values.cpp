@@ -4,11 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/lines.hpp"
 #include "core/base/number.hpp"
 #include "core/deck/directives.hpp"
 #include "core/deck/observable_keys.hpp"
+#include "core/deck/units.hpp"
 #include "core/jet/schemes.hpp"
 
 namespace treejet {
@@ -153,8 +155,40 @@ std::string read_number(const Directive& d, Arguments arguments, Reading<T> (*re
   return {};
 }
 
+/// "10 kV" in the directive's unit.
+std::string read_quantity(const Directive& d, Arguments arguments, double& target) {
+  const Reading<double> reading = real_number(arguments[0]);
+  if (!reading.problem.empty()) return expected(d) + reading.problem;
+  const Unit bare = unit(d.unit).value();
+  const std::string wanted = fmt::format("expected {} (in {} or {})", quantity_name(bare.dimension), d.unit,
+                                         usual_units(bare.dimension));
+  const std::string written = fmt::format("{}", fmt::join(arguments.subspan(1), " "));
+  const std::optional<Unit> given = unit(written);
+  if (!given) return fmt::format("{}, found {}, which is no unit that is known", wanted, quoted(written));
+  if (given->dimension != bare.dimension)
+    return fmt::format("{}, {}, {}", wanted, found(arguments), quantity_name(given->dimension));
+  const double value = converted(reading.value, *given, bare);
+  if (!std::isfinite(value) || (value == 0) != (reading.value == 0))
+    return fmt::format("{}, which is beyond the range of double precision in {}", found(arguments), d.unit);
+  if (d.check.holds && !d.check.holds(value))
+    return fmt::format("expected a value that is {}, {}", d.check.words, found(arguments));
+  target = value;
+  return {};
+}
+
+/// 20.cm: a blank is missing.
+std::string stuck_unit(const Directive& d, std::string_view word) {
+  const std::size_t digits = number_length(word);
+  if (d.unit.empty() || digits == 0 || digits == word.size() || !unit(word.substr(digits))) return {};
+  return fmt::format("{}found {}; did you mean {} {}?", expected(d), quoted(word), word.substr(0, digits),
+                     word.substr(digits));
+}
+
 std::string read(const Directive& d, Arguments a, double& target) {
-  return read_number(d, a, real_number, target);
+  if (a.size() == 1)
+    if (std::string problem = stuck_unit(d, a[0]); !problem.empty()) return problem;
+  return a.size() > 1 && !d.unit.empty() ? read_quantity(d, a, target)
+                                         : read_number(d, a, real_number, target);
 }
 std::string read(const Directive& d, Arguments a, int& target) {
   return read_number(d, a, integer, target);
@@ -240,7 +274,10 @@ std::string on_member(const Directive& d, Params& parameters, F&& f) {
 
 }  // namespace
 
-std::string assign(const Directive& d, std::span<const std::string> arguments, Parameters& parameters) {
+std::string assign(const Directive& directive, std::span<const std::string> arguments,
+                   Parameters& parameters) {
+  Directive d = directive;
+  d.unit = bare_unit(d, parameters.units);
   return on_member(d, parameters, [&](auto& member) { return read(d, arguments, member); });
 }
 

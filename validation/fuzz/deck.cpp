@@ -16,6 +16,7 @@
 #include "core/base/error.hpp"
 #include "core/deck/deck.hpp"
 #include "core/deck/directives.hpp"
+#include "core/deck/foreign.hpp"
 #include "core/deck/observable_keys.hpp"
 
 using namespace treejet;

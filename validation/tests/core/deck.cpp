@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -12,8 +13,10 @@
 #include "core/base/number.hpp"
 #include "core/deck/deck.hpp"
 #include "core/deck/directives.hpp"
+#include "core/deck/foreign.hpp"
 #include "core/deck/observable_keys.hpp"
 #include "core/deck/suggestion.hpp"
+#include "core/jet/scales.hpp"
 #include "validation/tests/core/broken_decks.hpp"
 
 using namespace treejet;
@@ -222,13 +225,125 @@ TEST_CASE("A hint names the same number well spelt, and none where two could be 
 
 TEST_CASE("No value is guessed by its letters: on is not no, gc is not vc", "[deck]") {
   for (const char* line :
-       {"gravity on", "gravity ys", "printstat list t gc", "multirate off", "integrator huen"}) {
+       {"gravity on", "gravity ys", "printstat list t gd", "multirate off", "integrator huen"}) {
     INFO(line);
     const std::string said = message(sound_deck, {line});
     CHECK(said.find("found '") != std::string::npos);
     CHECK(said.find("did you mean") == std::string::npos);
   }
   CHECK(message(altered("", "gravity ye")).find("did you mean yes?") != std::string::npos);
+}
+
+TEST_CASE(
+    "A feature that is switched off, or concerns files alone, is one note whatever the number of its lines",
+    "[deck]") {
+  for (const char* line :
+       {"multiple step no", "dynamic refinement no", "evaporation no", "kvfluid no", "airdrag no",
+        "restart no", "variable mass no", "dragvel yes", "noise no", "lorentz no", "mirror no",
+        "job time 3600", "print binary 1.d-4 style 3", "printstat binary", "print pdb frame 1.d-3",
+        "print xyz frame 1.d-2", "print rescalexyz", "cutoff points 1000"}) {
+    INFO(line);
+    const Deck deck = parse_deck(altered("", line), name);
+    const auto about = [&](const std::string& note) { return note.find(": left out") != std::string::npos; };
+    CHECK(std::count_if(deck.notes.begin(), deck.notes.end(), about) == 1);
+    CHECK(values(deck.parameters) == values(parse_deck(sound_deck, name).parameters));
+  }
+  const std::vector<std::string> notes =
+      parse_deck(altered("", "evaporation no\nevaporation temperature 293.\nevaporation umidity 0.2"), name)
+          .notes;
+  REQUIRE(notes.size() == 2);
+  CHECK(notes[0].starts_with("jet.dat:20: evaporation no: left out (3 lines on evaporation)"));
+  CHECK(notes[1].find("1/R^2") != std::string::npos);  // such a deck means another Coulomb law
+}
+
+TEST_CASE("Keys of what is not modelled are left out of the tables with a note; others are errors",
+          "[deck]") {
+  const Deck deck = parse_deck(sound_deck, name, {"printstat list t nref rc visc"});
+  CHECK(deck.parameters.printstat_list == std::vector<std::string>{"t", "rc"});
+  REQUIRE(deck.notes.size() == 2);
+  CHECK(deck.notes[0].find("nref (refinement), visc (evaporation)") != std::string::npos);
+  CHECK(message(sound_deck, {"printstat list nref"}).find("expected keys of observables") !=
+        std::string::npos);
+}
+
+TEST_CASE("A jet may reach from nozzle to collector where no bead is inserted or removed", "[deck]") {
+  const std::vector<std::string> still = {"initial length 16.", "inserting no", "removing no"};
+  CHECK(parse_deck(sound_deck, name, still).parameters.initial_length == 16);
+  CHECK(message(sound_deck, {"initial length 16.", "removing no"}).find("expected less than") !=
+        std::string::npos);
+  CHECK(message(sound_deck, {"initial length 17.", "inserting no", "removing no"}).find("expected at most") !=
+        std::string::npos);
+}
+
+TEST_CASE("A relation is judged only where everything it rests on is sound", "[deck]") {
+  const std::string said =
+      message(altered("points 1", "points ten"),
+              {"coulomb tree", "parallel distributed", "tolerance 1e-5", "integrator auto", "multirate no"});
+  CHECK(lines(said).size() == 1);
+  CHECK(said.starts_with("jet.dat:10: points: expected an integer"));
+}
+
+TEST_CASE("A deck in laboratory units is the deck in CGS", "[deck]") {
+  const Parameters cgs = parse_deck(sound_deck, name).parameters;
+  const Parameters lab =
+      parse_deck(
+          sound_deck, name,
+          {"external potential = 9 kV", "viscosity 2 Pa s", "elastic modulus 5 kPa", "density mass 840 kg/m3",
+           "density charge 14.7 mC/L", "surface tension 21.13 mN/m", "nozzle cross 50 um",
+           "collector distance 160 mm", "final time 500 ms", "initial length 0.2 mm"})
+          .parameters;
+  constexpr double round_off = 4e-16;  // two roundings of a number and a quotient
+  const auto alike = [&](double a, double b) { CHECK(std::abs(a / b - 1) <= round_off); };
+  alike(lab.external_potential, 9000 / 299.792458);
+  alike(lab.viscosity, cgs.viscosity);
+  alike(lab.elastic_modulus, cgs.elastic_modulus);
+  alike(lab.density_mass, cgs.density_mass);
+  alike(lab.density_charge, 14.7 * 2997.92458);
+  alike(lab.surface_tension, cgs.surface_tension);
+  alike(lab.nozzle_cross, cgs.nozzle_cross);
+  alike(lab.collector_distance, cgs.collector_distance);
+  alike(lab.final_time, cgs.final_time);
+  alike(lab.initial_length, cgs.initial_length);
+  const Parameters turning = parse_deck(sound_deck, name, {"perturb freq 10 kHz"}).parameters;
+  alike(turning.perturb_frequency, 62831.853071795864769);  // 2 pi 10^4
+}
+
+TEST_CASE("units real and units at the numbers give the same groups as CGS", "[deck]") {
+  // 0.0147 C/L are 14.7 C/m^3; 300 V are 300/299.792458 statV
+  const std::vector<std::string> real = {"units real", "density charge 0.0147", "external potential 300"};
+  const std::vector<std::string> carried = {"units real", "density charge 14.7 mC/L",
+                                            "external potential 0.3 kV"};
+  const std::vector<std::string> cgs = {"density charge 44069.491326",
+                                        "external potential 1.000692285594456"};
+  const Groups want = groups(parse_deck(sound_deck, name, cgs).parameters);
+  for (const auto& overrides : {real, carried}) {
+    const Groups got = groups(parse_deck(sound_deck, name, overrides).parameters);
+    constexpr double digits = 1e-12;  // the CGS numbers are written with 13 digits and more
+    CHECK(std::abs(got.Q / want.Q - 1) < digits);
+    CHECK(std::abs(got.V / want.V - 1) < digits);
+    CHECK(std::abs(got.H / want.H - 1) < digits);
+  }
+}
+
+TEST_CASE("A bare number that is absurd in its unit gets a note with the unit that was likely meant",
+          "[deck]") {
+  for (const auto& [line, likely] :
+       std::map<std::string, std::string>{{"density mass 839", "if kg/m3 are meant, write 839 kg/m3"},
+                                          {"external potential 9000", "if V are meant, write 9000 V"},
+                                          {"collector distance 0.16", "if m are meant, write 0.16 m"},
+                                          {"surface tension 0.021", "if N/m are meant, write 0.021 N/m"},
+                                          {"nozzle cross 0.26", "if mm are meant, write 0.26 mm"},
+                                          {"density charge 14.7", "if C/m3 are meant, write 14.7 C/m3"}}) {
+    INFO(line);
+    const std::string bare =
+        fmt::format("{}", fmt::join(parse_deck(sound_deck, name, {line, "resolution 0.02"}).notes, "\n"));
+    INFO(bare);
+    CHECK(bare.find(likely) != std::string::npos);
+    const std::string written = likely.substr(likely.find("write ") + 6);
+    const std::string words = line.substr(0, line.find_last_of(' '));
+    const std::vector<std::string> meant = parse_deck(sound_deck, name, {words + " " + written}).notes;
+    CHECK(fmt::format("{}", fmt::join(meant, "\n")).find("taken as") == std::string::npos);
+  }
 }
 
 TEST_CASE("A comment in Latin-1 is kept in UTF-8, which all files are written in", "[deck]") {

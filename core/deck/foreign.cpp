@@ -1,0 +1,75 @@
+#include "core/deck/foreign.hpp"
+
+namespace treejet {
+
+namespace {
+
+constexpr std::string_view split =
+    "the Coulomb sum is split by the program, see multirate; leave the line out";
+constexpr std::string_view waves = "the potential is constant; leave the line out";
+constexpr std::string_view resumed =
+    "a run goes on with treejet run --resume DIR, see checkpoint; leave the line out";
+
+// clang-format off
+const Foreign table[] = {
+    {"system 2", "system 2", "JETSPIN has no working system 2; write system 1 or system 3"},
+    {"system 4", "air drag", "air drag is not modelled; write system 3 and leave the airdrag lines out"},
+    {"airdrag", "air drag", "air drag is not modelled; leave the line out", "no"},
+    {"integrator 4", "noise", "JETSPIN's stochastic scheme is not modelled; write integrator 1, 2 or 3"},
+    {"noise", "noise", "random forces are not modelled; leave the line out", "no", false, true},
+    {"evaporation", "evaporation", "all of the fluid arrives; leave the line out", "no", false, true},
+    {"cutoff points", "cutoff points",
+     "JETSPIN 1.00 took the number for a length in cm; write cutoff and that length, or leave the line out for "
+     "the full sum", "1000"},
+    {"variable mass", "variable mass", "all beads are released with the same mass; leave the line out", "no"},
+    {"variable charge", "variable charge", "all beads are released with the same charge; leave the line out", "no"},
+    {"kvfluid", "Kelvin-Voigt fluid",
+     "the fluid is Maxwell's, or Herschel-Bulkley's with hbfluid; leave the line out", "no", false, true},
+    {"dynamic refinement", "refinement", "elements are not refined; choose a smaller resolution", "no"},
+    {"restart", "restart", resumed, "no"},
+    {"dragvel", "dragging velocity",
+     "beads are always released with the paper's dragging velocity; leave the line out", "yes", false, true},
+    {"primary cutoff", "multiple step", split, {}, false, true},
+    {"maximum displ", "multiple step", split, {}, false, true},
+    {"maximum displacement", "multiple step", split, {}, false, true},
+    {"multiple step", "multiple step", "the Coulomb sum is split by the program; write multirate auto or no", "no",
+     false, true},
+    {"external potential type", "varying potential", waves, "0", false, true},
+    {"external potential freq", "varying potential", waves, {}, false, true},
+    {"external potential phase", "varying potential", waves, {}, false, true},
+    {"external potential time", "varying potential", waves, {}, false, true},
+    {"external potential vector", "varying potential", "the field points from the nozzle to the collector; leave the line out",
+     {}, false, true},
+    {"lorentz", "magnetic field", "magnetic fields are not modelled; leave the line out", "no", false, true},
+    {"magnetic", "magnetic field", "magnetic fields are not modelled; leave the line out", "no", false, true},
+    {"mirror", "image charges", "the collector has no image charges; leave the line out", "no", false, true},
+    {"wall", "wall", "walls are not modelled; leave the line out", "no", false, true},
+    {"breakup", "breakup", "jets do not break; leave the line out", "no", false, true},
+    {"ultimate strength", "breakup", "jets do not break; leave the line out", {}, false, true},
+    {"job time", "time limit", "write --walltime and the time after treejet run", {}, true},
+    {"close time", "time limit", "write --walltime and the time after treejet run", {}, true},
+    {"print binary", "binary output", "binary files are not written; print hdf5 and printstat list are", {}, true},
+    {"printstat binary", "binary output", "binary files are not written; print hdf5 and printstat list are", {}, true},
+    {"print pdb", "PDB output", "PDB files are not written; write print xyz or print hdf5 and an interval", {}, true},
+    {"print xyz frame", "single frames", "all frames go to one file; write print xyz and an interval", {}, true},
+    {"print rescalexyz", "coordinates in units of length", "coordinates are in cm; print xyz rescale is a factor on them",
+     {}, true},
+};
+
+constexpr ForeignKey keys[] = {
+    {"nref", "refinement"}, {"vol", "variable volume"}, {"volr", "variable volume"}, {"v", "varying potential"},
+    {"visc", "evaporation"}, {"gc", "evaporation"}, {"evrc", "evaporation"}, {"emfc", "evaporation"},
+    {"mxst", "largest stress"}, {"mxsx", "largest stress"}, {"nms", "multiple step"}, {"erms", "multiple step"},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const Foreign> foreign_directives() {
+  return table;
+}
+std::span<const ForeignKey> foreign_keys() {
+  return keys;
+}
+
+}  // namespace treejet
