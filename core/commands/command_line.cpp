@@ -36,7 +36,7 @@ CLI::Option* add_deck(CLI::App& command, Arguments& a) {
   command
       .add_option("--set", a.overrides,
                   "a directive with its value that replaces the deck's, e.g. "
-                  "--set \"final time 0.1\"; may be repeated")
+                  "--set \"final time 0.1\" or --set \"external potential = 10 kV\"; may be repeated")
       ->allow_extra_args(false)
       ->needs(deck);
   return deck;
@@ -185,6 +185,7 @@ std::optional<Arguments> command_line(int argc, char** argv, const std::string& 
 
   auto& check = *app.add_subcommand("check", "Read a deck and tell what it composes and leaves out, and why");
   add_deck(check, a)->required();
+  check.add_flag("--json", a.json, "one JSON object instead of text: notes, laboratory sheet, plan");
   add_files(app, a);
   add_field(app, a);
   app.add_subcommand("template", "Print a commented deck with every directive");

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
+#include "core/base/lines.hpp"
 #include "core/io/atomic_file.hpp"
 
 namespace treejet {
@@ -141,6 +142,25 @@ std::string run_record_text(const fs::path& path) try {
   return fmt::format("{}\n{}", text, description(p));
 } catch (const Json::exception& e) {
   throw FileError(fmt::format("{}: a run record with something missing: {}", path.string(), e.what()));
+}
+
+std::string check_record(const Deck& deck, const std::vector<SheetRow>& laboratory,
+                         const std::vector<SheetRow>& plan) {
+  const auto object = [](const std::vector<SheetRow>& rows) {
+    Json all = Json::object();
+    for (const SheetRow& row : rows) {
+      Json& entry = all[row.key] = {{"value", row.value}, {"unit", row.unit}};
+      if (!row.meaning.empty()) entry["meaning"] = row.meaning;
+      if (!row.warning.empty()) entry["warning"] = row.warning;
+    }
+    return all;
+  };
+  std::vector<std::string> notes;  // they begin with the name of the deck
+  for (const std::string& note : deck.notes) notes.push_back(utf8(note));
+  const Json record = {{"format", "treejet check 1"},      {"deck", utf8(deck.name)},
+                       {"overrides", deck.overrides},      {"notes", notes},
+                       {"laboratory", object(laboratory)}, {"plan", object(plan)}};
+  return record.dump(2);
 }
 
 }  // namespace treejet

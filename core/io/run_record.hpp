@@ -14,6 +14,7 @@
 #include <filesystem>
 
 #include "core/base/output_file.hpp"
+#include "core/deck/lab_sheet.hpp"
 #include "core/io/provenance.hpp"
 
 namespace treejet {
@@ -54,5 +55,12 @@ bool has_completed(const std::filesystem::path& directory);
 
 /// What a record tells, for people. FileError if it is none, or cut short.
 std::string run_record_text(const std::filesystem::path& path);
+
+/// What `treejet check --json` prints:
+///     {"format": "treejet check 1", "deck", "overrides": [...], "notes": [...],
+///      "laboratory": {"field": {"value", "unit", "meaning", "warning"}, ...}, "plan": {"steps": {...}, ...}}
+/// A row without unit is a number; meaning and warning are there where the text has them.
+std::string check_record(const Deck& deck, const std::vector<SheetRow>& laboratory,
+                         const std::vector<SheetRow>& plan);
 
 }  // namespace treejet

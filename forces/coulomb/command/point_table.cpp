@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <string_view>
 
 #include "core/base/error.hpp"
+#include "core/base/lines.hpp"
+#include "core/base/number.hpp"
 #include "core/base/output_file.hpp"
 
 namespace treejet {
@@ -22,8 +22,7 @@ std::vector<std::string_view> cells(std::string_view line) {
     const auto comma = line.find(',');
     std::string_view cell = line.substr(0, comma);
     while (!cell.empty() && (cell.front() == ' ' || cell.front() == '\t')) cell.remove_prefix(1);
-    while (!cell.empty() && (cell.back() == ' ' || cell.back() == '\t' || cell.back() == '\r'))
-      cell.remove_suffix(1);
+    while (!cell.empty() && (cell.back() == ' ' || cell.back() == '\t')) cell.remove_suffix(1);
     all.push_back(cell);
     if (comma == std::string_view::npos) return all;
     line.remove_prefix(comma + 1);
@@ -31,16 +30,16 @@ std::vector<std::string_view> cells(std::string_view line) {
 }
 
 /// The places of x, y, z and q in the header.
-std::array<std::size_t, 4> columns(const std::string& file, const std::string& header) {
+std::array<std::size_t, 4> columns(const std::string& file, std::string_view header, std::size_t number) {
   const std::vector<std::string_view> names = cells(header);
   std::array<std::size_t, 4> place{};
   for (std::size_t k = 0; k < 4; ++k) {
     const std::string_view wanted = std::string_view("xyzq").substr(k, 1);
     const auto found = std::find(names.begin(), names.end(), wanted);
     if (found == names.end())
-      throw InputError(fmt::format("{}: line 1 names no column {}; expected x,y,z,q", file, wanted));
+      throw InputError(fmt::format("{}: line {} names no column {}; expected x,y,z,q", file, number, wanted));
     if (std::find(found + 1, names.end(), wanted) != names.end())
-      throw InputError(fmt::format("{}: line 1 names column {} twice", file, wanted));
+      throw InputError(fmt::format("{}: line {} names column {} twice", file, number, wanted));
     place[k] = static_cast<std::size_t>(found - names.begin());
   }
   return place;
@@ -49,28 +48,33 @@ std::array<std::size_t, 4> columns(const std::string& file, const std::string& h
 }  // namespace
 
 PointTable read_points(const std::string& file) {
-  std::ifstream in(file);
+  std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError("cannot read " + file);
-  std::string line;
-  std::getline(in, line);
-  const auto place = columns(file, line);
-  const std::size_t width = cells(line).size();
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
   PointTable table;
-  for (int number = 2; std::getline(in, line); ++number) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+  std::array<std::size_t, 4> place{};
+  std::size_t number = 0, width = 0;  // no width: the header is still to come
+  for (const std::string_view whole : lines_of(text)) {
+    ++number;
+    const std::string_view line = whole.substr(0, whole.find('#'));
+    if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
     const std::vector<std::string_view> cell = cells(line);
+    if (width == 0) {
+      place = columns(file, line, number);
+      width = cell.size();
+      continue;
+    }
     if (cell.size() != width)
       throw InputError(
           fmt::format("{}: line {} has {} values, the header names {}; numbers with a decimal comma? "
                       "write them with a point",
                       file, number, cell.size(), width));
     for (std::size_t k = 0; k < 4; ++k) {
-      double value = 0;
-      const std::string_view text = cell[place[k]];
-      const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-      if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        throw InputError(fmt::format("{}: line {}: '{}' is not a finite number", file, number, text));
-      (k < 3 ? table.r[k] : table.q).push_back(value);
+      const Reading<double> reading = real_number(cell[place[k]]);
+      if (!reading.problem.empty())
+        throw InputError(
+            fmt::format("{}: line {}: expected a finite number, {}", file, number, reading.problem));
+      (k < 3 ? table.r[k] : table.q).push_back(reading.value);
     }
   }
   if (table.size() == 0) throw InputError(file + ": no points");

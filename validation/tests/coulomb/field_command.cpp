@@ -44,6 +44,21 @@ TEST_CASE("A table that is wrong is refused with its line") {
   CHECK_THROWS_WITH(read_points(file("treejet-d.csv", "x,y,z,q\n")), Catch::Contains("no points"));
 }
 
+TEST_CASE("A table is read whatever editor wrote it, with numbers as decks have them") {
+  const std::string plain = file("treejet-plain.csv", "x,y,z,q\n1,2,3,4\n-0.5,1e-5,0,1\n");
+  const PointTable want = read_points(plain);
+  for (const char* text :
+       {"\xEF\xBB\xBFx,y,z,q\r\n1,2,3,4\r\n-.5,1d-5,0,+1\r\n", "x,y,z,q\r1,2,3,4\r-5.d-1,1.D-5,0,1\r",
+        "# made by hand\nx, y, z, q # cm, statC\n\n1,2,3,4 # first\n-0.5,+1e-5,0.,1\n"}) {
+    INFO(text);
+    const PointTable table = read_points(file("treejet-table.csv", text));
+    CHECK(table.r == want.r);
+    CHECK(table.q == want.q);
+  }
+  CHECK_THROWS_WITH(read_points(file("treejet-table.csv", "x,y,z,q\r\n1,2,3,4\r\n1,x1,3,4\r\n")),
+                    Catch::Contains("line 3: expected a finite number, found 'x1'"));
+}
+
 TEST_CASE("The reported error is the difference from the direct sum") {
   const PointSet set = coil(500, 5, 0.5);
   FieldSet field(500);
