@@ -162,8 +162,9 @@ class Relations {
     constexpr double most_samples = 1e9;
     const double timestep = p_.timestep.value_or(0);
     if (!seconds) return;
-    error(*seconds > p_.final_time, {words, "final time"},
-          fmt::format("expected at most final time ({} s)", p_.final_time));
+    note(*seconds > p_.final_time && sound("final time"), words,
+         fmt::format("longer than final time ({} s): nothing is written between start and end",
+                     p_.final_time));
     error(p_.final_time / *seconds > most_samples, {words, "final time"},
           fmt::format("expected at least {:.3g} s: at most {:.0e} samples of final time ({} s)",
                       p_.final_time / most_samples, most_samples, p_.final_time));

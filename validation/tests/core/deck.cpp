@@ -275,6 +275,14 @@ TEST_CASE("A jet may reach from nozzle to collector where no bead is inserted or
         std::string::npos);
 }
 
+TEST_CASE("An interval longer than the run is noted, whichever file it is of", "[deck]") {
+  for (const char* line : {"print time 1.", "print xyz 1.", "print hdf5 1."}) {
+    const std::vector<std::string> notes = parse_deck(sound_deck, name, {line}).notes;
+    REQUIRE(notes.size() == 1);
+    CHECK(notes[0].find(std::string(line) + ": longer than final time (0.5 s)") != std::string::npos);
+  }
+}
+
 TEST_CASE("A relation is judged only where everything it rests on is sound", "[deck]") {
   const std::string said =
       message(altered("points 1", "points ten"),
