@@ -23,7 +23,8 @@ std::string convert(const Conversion& c) {
   std::filesystem::path out = c.out;
   if (out.empty()) out = std::filesystem::path(c.from).replace_extension(format->extension);
 
-  const auto writer = format->writer({out, c.existing, program(file.content().made_by), file.points()});
+  const auto writer =
+      format->writer({out, c.existing, program(file.content().made_by), file.points(), file.columns()});
   constexpr std::uint64_t most_frames = 64, most_points = 1 << 20;  // in memory
   const std::uint64_t at_once = std::clamp<std::uint64_t>(most_points / (file.points() + 1), 1, most_frames);
   for (std::uint64_t i = 0; i < file.frames(); i += at_once)

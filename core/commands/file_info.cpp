@@ -36,7 +36,7 @@ std::string trajectory(const fs::path& path) {
                         last.time, file.points(), last.points());
   }
   std::vector<std::string> columns{"id"};
-  for (const auto& c : frame_columns) columns.push_back(fmt::format("{} [{}]", c.name, c.unit));
+  for (const auto& c : file.columns()) columns.push_back(fmt::format("{} [{}]", c.name, c.unit));
   text += fmt::format("\npoints  {}\n", fmt::join(columns, ", "));
   text += fmt::format("observables  {} rows of: {}\n", rows, fmt::join(file.content().keys, " "));
   return text + description(file.content().made_by);

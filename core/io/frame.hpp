@@ -4,37 +4,44 @@
 /// Points are the beads, oldest first, and then the nozzle, so that the polygon through the points is the
 /// jet. A bead's id counts the beads since the start from 1; the nozzle has id 0. Quantities of an element -
 /// stress, radius a = a_0 sqrt(V l_step / l) - stand at its lower end; the nozzle has stress 0, mass 0,
-/// radius a_0 and the charge it stands for in the Coulomb sum, that of a bead. A held bead
-/// (core/jet/nozzle.hpp) is no point yet.
+/// radius a_0 and the charge it stands for in the Coulomb sum, that of a bead, and of a column that the scene
+/// adds the value that beads are born with. A held bead (core/jet/nozzle.hpp) is no point yet.
 
-#include <array>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "core/jet/columns.hpp"
 #include "core/jet/nozzle.hpp"
 #include "core/jet/scales.hpp"
 
 namespace treejet {
 
 struct FrameColumn {
-  const char* name;
-  const char* unit;  ///< in the words of H5MD
-  int width;         ///< components
+  std::string name;
+  std::string unit;  ///< in the words of H5MD
+  int width = 1;     ///< components
 };
+using FrameColumns = std::vector<FrameColumn>;
 
-inline constexpr std::array<FrameColumn, 6> frame_columns{{{"position", "cm", 3},
-                                                           {"velocity", "cm s-1", 3},
-                                                           {"stress", "g cm-1 s-2", 1},
-                                                           {"charge", "statC", 1},
-                                                           {"mass", "g", 1},
-                                                           {"radius", "cm", 1}}};
+/// Those of every jet, position first; behind them those that the scene has added.
+FrameColumns frame_columns(const FrameColumns& added = {});
+
+/// Bytes of a point in a file of such columns.
+std::size_t bytes_of_point(const FrameColumns& columns);
+
+/// A scene's columns as frames show them.
+FrameColumns frame_columns_of(const Columns& added);
+
+/// What a column may be called, so that its name is one word in every format.
+bool is_column_name(const std::string& name);
 
 struct Frame {
   std::int64_t step = 0;  ///< counts the frames since the start, as steps of the integrator vary in length
   double time = 0;        ///< s
   std::vector<std::int64_t> id;
-  std::array<std::vector<double>, frame_columns.size()> columns;  ///< point by point
+  std::vector<std::vector<double>> columns;  ///< of frame_columns, point by point
 
   std::size_t points() const { return id.size(); }
 };
@@ -47,10 +54,11 @@ struct Row {
 };
 
 template <int D>
-Frame frame(const Jet<D>& jet, const Nozzle<D>& nozzle, const Scales& scales, double nozzle_radius) {
+Frame frame(const Jet<D>& jet, const Nozzle<D>& nozzle, const Scales& scales, double nozzle_radius,
+            const Columns& added = {}) {
   Frame f;
   f.time = jet.t * scales.time;
-  auto& [position, velocity, stress, charge, mass, radius] = f.columns;
+  std::vector<double> position, velocity, stress, charge, mass, radius;
   const auto add = [](std::vector<double>& to, const Vec<D>& v, double unit) {
     for (int k = 0; k < 3; ++k) to.push_back(k < D ? unit * v[k < D ? k : 0] : 0);
   };
@@ -73,6 +81,13 @@ Frame frame(const Jet<D>& jet, const Nozzle<D>& nozzle, const Scales& scales, do
   charge.push_back(Nozzle<D>::charge * scales.charge);
   mass.push_back(0);
   radius.push_back(nozzle_radius);
+  f.columns = {position, velocity, stress, charge, mass, radius};
+  for (std::size_t k = 0; k < added.size(); ++k) {
+    std::vector<double>& values = f.columns.emplace_back();
+    for (Eigen::Index i = 0; i < jet.size(); ++i)
+      values.push_back(jet.y(i, own_columns<D> + static_cast<Eigen::Index>(k)) * added[k].scale);
+    values.push_back(added[k].at_birth * added[k].scale);
+  }
   return f;
 }
 

@@ -7,7 +7,8 @@
 ///              and MDAnalysis take the number of the first frame for that of all, without a word
 ///
 ///     extxyz   extended XYZ: species (C a bead, X the nozzle), pos, id, velo, and tension, bead_charge,
-///              bead_mass, jet_radius, names that ASE and OVITO keep as they are: they take stress for the
+///              bead_mass, jet_radius, names that ASE and OVITO keep as they are, and
+///              columns that the scene has added under their own: they take stress for the
 ///              cell's, mass and charge for the atoms', radius for the size of a ball
 ///
 ///     csv      a header with units, then a row a point: `frame,t[s],id,x[cm],...`
@@ -35,6 +36,7 @@ struct FrameWriterSetting {
   OutputFile::Existing existing = OutputFile::Existing::keep;
   std::string made_by;            ///< a line
   std::uint64_t most_points = 0;  ///< of the largest frame
+  FrameColumns columns = frame_columns();
 };
 
 /// Formats, in the order above.

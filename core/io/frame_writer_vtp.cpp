@@ -42,7 +42,7 @@ std::string escaped(std::string_view text) {
 }
 
 template <class T>
-std::string array(const char* name, int components, const std::vector<T>& values) {
+std::string array(const std::string& name, int components, const std::vector<T>& values) {
   return fmt::format(
       "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n{}\n</DataArray>\n",
       std::is_integral_v<T> ? "Int64" : "Float64", name, components, fmt::join(values, " "));
@@ -84,8 +84,8 @@ class Vtp final : public FrameWriter {
         "NumberOfPolys=\"0\">\n",
         f.time, end);
     fmt::format_to(out, "<PointData>\n{}", array("id", 1, f.id));
-    for (std::size_t c = 1; c < frame_columns.size(); ++c)
-      text += array(frame_columns[c].name, frame_columns[c].width, f.columns[c]);
+    for (std::size_t c = 1; c < f.columns.size(); ++c)
+      text += array(setting_.columns[c].name, setting_.columns[c].width, f.columns[c]);
     fmt::format_to(out, "</PointData>\n<Points>\n{}</Points>\n<Lines>\n{}{}</Lines>\n</Piece>\n",
                    array("position", 3, f.columns[0]), array("connectivity", 1, chain),
                    array("offsets", 1, std::vector<std::int64_t>{end}));

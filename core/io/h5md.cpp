@@ -61,7 +61,7 @@ void make_times(Hdf5File& file, const char* group, std::string_view name, std::s
 }  // namespace
 
 H5md::H5md(const std::filesystem::path& path, const Content& content, const Chunk& chunk)
-    : file_(path, Hdf5File::Access::create), content_(content) {
+    : file_(path, Hdf5File::Access::create), content_(content), columns_(frame_columns(content.added)) {
   describe();
   make_elements(chunk);
 }
@@ -91,6 +91,10 @@ void H5md::describe() {
   note("overrides", fmt::format("{}", fmt::join(p.overrides, "\n")));
   note("observables", fmt::format("{}", fmt::join(content_.keys, " ")));
   note("run_record", run_record_name);
+  if (content_.added.empty()) return;
+  std::string lines;
+  for (const FrameColumn& c : content_.added) lines += fmt::format("{} {}\n", c.name, c.unit);
+  note("columns", lines);
 }
 
 void H5md::make_elements(const Chunk& chunk) {
@@ -100,8 +104,8 @@ void H5md::make_elements(const Chunk& chunk) {
   file_.group(box);
   file_.attribute(box, "dimension", std::vector<int>{3});
   file_.attribute(box, "boundary", std::vector<std::string>(3, "none"));
-  const std::string first = frame_columns[0].name;
-  for (const auto& [name, unit, width] : frame_columns) {
+  const std::string first = columns_[0].name;
+  for (const auto& [name, unit, width] : columns_) {
     const auto w = static_cast<std::uint64_t>(width);
     const std::string value = element(jet, name, "value");
     if (width == 1)
@@ -116,7 +120,9 @@ void H5md::make_elements(const Chunk& chunk) {
 
   file_.group(observables);
   for (const auto& key : content_.keys) {
-    const std::string value = element(observables, key, "value"), unit = h5md_unit(key);
+    const auto own = content_.units.find(key);
+    const std::string value = element(observables, key, "value"),
+                      unit = own == content_.units.end() ? h5md_unit(key) : own->second;
     file_.dataset(value, {Number::real, {0}, {times_a_chunk}, nan});
     if (!unit.empty()) file_.word_attribute(value, "unit", unit);
     make_times(file_, observables, key, content_.keys[0]);
@@ -134,11 +140,24 @@ H5md::H5md(const std::filesystem::path& path, Hdf5File::Access access) : file_(p
   const std::string overrides = noted("overrides");
   for (const auto line : lines_of(overrides)) content_.made_by.overrides.emplace_back(line);
   content_.keys = words_of(noted("observables"));
+  read_added_columns();
   const Extent ids = file_.extent(element(jet, "id", "value"));
   frames_ = ids[0];
   points_ = ids.size() > 1 ? ids[1] : 0;
   if (!content_.keys.empty()) rows_ = length(file_, element(observables, content_.keys[0], "value"));
   check_extents();
+}
+
+void H5md::read_added_columns() {
+  const std::string list = fmt::format("{}/columns", parameters);
+  const std::string text = file_.has(list) ? file_.text(list) : "";
+  for (const std::string_view line : lines_of(text)) {
+    const auto blank = std::min(line.find(' '), line.size());
+    const std::string name(line.substr(0, blank));
+    if (!is_column_name(name)) throw FileError(fmt::format("{}: `{}` is no name of a column", list, name));
+    content_.added.push_back({name, std::string(line.substr(std::min(blank + 1, line.size())))});
+  }
+  columns_ = frame_columns(content_.added);
 }
 
 /// All that is read later has the extent that the ids, or the first observable, have.
@@ -149,13 +168,13 @@ void H5md::check_extents() const {
                                   fmt::join(extent, " x ")));
   };
   expect(element(jet, "id", "value"), {frames_, points_});
-  for (const auto& [name, unit, width] : frame_columns) {
+  for (const auto& [name, unit, width] : columns_) {
     Extent extent{frames_, points_};
     if (width > 1) extent.push_back(static_cast<std::uint64_t>(width));
     expect(element(jet, name, "value"), extent);
   }
   for (const char* part : {"step", "time"}) {
-    expect(element(jet, frame_columns[0].name, part), {frames_});
+    expect(element(jet, columns_[0].name, part), {frames_});
     if (rows_ > 0) expect(element(observables, content_.keys[0], part), {rows_});
   }
   for (const auto& key : content_.keys) expect(element(observables, key, "value"), {rows_});
@@ -184,8 +203,8 @@ void H5md::append(std::span<const Frame> frames) {
     id.insert(id.end(), f.id.begin(), f.id.end());
     id.resize(step.size() * points_, absent);
   }
-  for (std::size_t c = 0; c < frame_columns.size(); ++c) {
-    const auto width = static_cast<std::uint64_t>(frame_columns[c].width);
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    const auto width = static_cast<std::uint64_t>(columns_[c].width);
     values.clear();
     for (const Frame& f : frames) {
       const std::size_t begin = values.size();
@@ -194,11 +213,11 @@ void H5md::append(std::span<const Frame> frames) {
     }
     Extent size{frames.size(), points_};
     if (width > 1) size.push_back(width);
-    put(element(jet, frame_columns[c].name, "value"), values, size);
+    put(element(jet, columns_[c].name, "value"), values, size);
   }
   put(element(jet, "id", "value"), id, {frames.size(), points_});
-  put(element(jet, frame_columns[0].name, "step"), step, {frames.size()});
-  put(element(jet, frame_columns[0].name, "time"), time, {frames.size()});
+  put(element(jet, columns_[0].name, "step"), step, {frames.size()});
+  put(element(jet, columns_[0].name, "time"), time, {frames.size()});
   frames_ += frames.size();
 }
 
@@ -224,7 +243,7 @@ std::vector<Frame> H5md::frames(std::uint64_t first, std::uint64_t count) const 
   if (count == 0) return frames;
   std::vector<std::int64_t> step(count), id(count * points_);
   std::vector<double> time(count), values;
-  const char* shared = frame_columns[0].name;
+  const std::string& shared = columns_[0].name;
   file_.read(element(jet, shared, "step"), {{first}, {count}}, step.data());
   file_.read(element(jet, shared, "time"), {{first}, {count}}, time.data());
   file_.read(element(jet, "id", "value"), {{first, 0}, {count, points_}}, id.data());
@@ -234,15 +253,15 @@ std::vector<Frame> H5md::frames(std::uint64_t first, std::uint64_t count) const 
     const auto begin = id.begin() + static_cast<long>(i * points_), end = begin + static_cast<long>(points_);
     frames[i].id.assign(begin, std::find(begin, end, absent));
   }
-  for (std::size_t c = 0; c < frame_columns.size(); ++c) {
-    const auto width = static_cast<std::uint64_t>(frame_columns[c].width);
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    const auto width = static_cast<std::uint64_t>(columns_[c].width);
     values.resize(count * points_ * width);
     Hdf5File::Box box{{first, 0}, {count, points_}};
     if (width > 1) box.first.push_back(0), box.size.push_back(width);
-    file_.read(element(jet, frame_columns[c].name, "value"), box, values.data());
+    file_.read(element(jet, columns_[c].name, "value"), box, values.data());
     for (std::size_t i = 0; i < count; ++i) {
       const auto begin = values.begin() + static_cast<long>(i * points_ * width);
-      frames[i].columns[c].assign(begin, begin + static_cast<long>(frames[i].points() * width));
+      frames[i].columns.emplace_back(begin, begin + static_cast<long>(frames[i].points() * width));
     }
   }
   return frames;

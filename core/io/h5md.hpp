@@ -2,7 +2,8 @@
 /// The layout of traj.h5: H5MD 1.1 (nongnu.org/h5md) with its module for units, in CGS.
 ///
 ///     /particles/jet/box                         dimension 3, boundary none
-///     /particles/jet/{position,velocity,...}     one element for each of core/io/frame.hpp's columns
+///     /particles/jet/{position,velocity,...}     one element for each of core/io/frame.hpp's columns; those
+///                                                that the scene has added are named in /parameters/columns
 ///     /particles/jet/id                          bead number, 0 the nozzle, -1 (the fill value) no point
 ///     /observables/<key>                         core/deck/observable_keys.hpp
 ///     /parameters                                what made the file, core/io/provenance.hpp
@@ -13,6 +14,7 @@
 ///
 /// FileError if a file is no H5MD of ours, or cut short.
 
+#include <map>
 #include <span>
 
 #include "core/io/frame.hpp"
@@ -25,7 +27,9 @@ class H5md {
  public:
   struct Content {
     Provenance made_by;
-    std::vector<std::string> keys;  ///< of the observables
+    std::vector<std::string> keys;                  ///< of the observables
+    FrameColumns added = {};                        ///< columns of the scene
+    std::map<std::string, std::string> units = {};  ///< of observables that are not in the table of keys
   };
   struct Chunk {
     std::uint64_t frames, points;
@@ -46,11 +50,13 @@ class H5md {
   /// Of the largest frame.
   std::uint64_t points() const { return points_; }
   const Content& content() const { return content_; }
+  const FrameColumns& columns() const { return columns_; }
 
   std::vector<Frame> frames(std::uint64_t first, std::uint64_t count) const;
   std::vector<Row> rows(std::uint64_t first, std::uint64_t count) const;
 
  private:
+  void read_added_columns();
   void check_extents() const;
   void describe();
   void make_elements(const Chunk& chunk);
@@ -59,6 +65,7 @@ class H5md {
 
   Hdf5File file_;
   Content content_;
+  FrameColumns columns_;
   std::uint64_t frames_ = 0, rows_ = 0, points_ = 0;
 };
 

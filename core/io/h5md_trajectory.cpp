@@ -131,7 +131,8 @@ void H5mdTrajectory::exchange_with_twin() {
 }
 
 void H5mdTrajectory::write_xdmf() const {
-  write_whole(fs::path(path_).replace_extension(".xdmf"), xdmf_.text(path_.filename().string(), points_));
+  write_whole(fs::path(path_).replace_extension(".xdmf"),
+              xdmf_.text(path_.filename().string(), points_, frame_columns(content_.added)));
 }
 
 void H5mdTrajectory::sync() {

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <filesystem>
 
-#include "core/base/version.hpp"
 #include "core/base/lines.hpp"
+#include "core/base/version.hpp"
 #include "core/io/hdf5_file.hpp"
 
 namespace treejet {

@@ -16,7 +16,7 @@ struct Place {
 };
 
 /// The rows of one frame that hold points, out of a dataset of all frames.
-std::string selection(const Place& at, std::uint64_t points, const char* name, int components,
+std::string selection(const Place& at, std::uint64_t points, const std::string& name, int components,
                       const char* type) {
   const bool vector = components > 1;
   const std::string last = vector ? fmt::format(" {}", components) : "";
@@ -33,7 +33,7 @@ constexpr const char *real = "NumberType=\"Float\"", *integer = "NumberType=\"In
 
 }  // namespace
 
-std::string Xdmf::text(const std::string& hdf5_name, std::uint64_t width) const {
+std::string Xdmf::text(const std::string& hdf5_name, std::uint64_t width, const FrameColumns& columns) const {
   std::string text =
       "<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
       "<Grid Name=\"jet\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
@@ -44,9 +44,9 @@ std::string Xdmf::text(const std::string& hdf5_name, std::uint64_t width) const 
                    "<Grid Name=\"frame {}\">\n<Time Value=\"{}\"/>\n"
                    "<Topology TopologyType=\"Polyline\" NumberOfElements=\"1\" NodesPerElement=\"{}\"/>\n",
                    at.frame, time, points);
-    for (const auto& [name, unit, components] : frame_columns) {
+    for (const auto& [name, unit, components] : columns) {
       const std::string values = selection(at, points, name, components, real);
-      if (name == frame_columns[0].name)
+      if (name == columns[0].name)
         fmt::format_to(out, "<Geometry GeometryType=\"XYZ\">{}</Geometry>\n", values);
       else
         fmt::format_to(out,

@@ -4,8 +4,10 @@
 /// points.
 
 #include <cstdint>
-#include <filesystem>
+#include <string>
 #include <vector>
+
+#include "core/io/frame.hpp"
 
 namespace treejet {
 
@@ -18,8 +20,8 @@ class Xdmf {
 
   void add(const Grid& grid) { grids_.push_back(grid); }
 
-  /// The text, for values that have `width` points a frame.
-  std::string text(const std::string& hdf5_name, std::uint64_t width) const;
+  /// The text, for values that have `width` points a frame in each of the columns.
+  std::string text(const std::string& hdf5_name, std::uint64_t width, const FrameColumns& columns) const;
 
  private:
   std::vector<Grid> grids_;

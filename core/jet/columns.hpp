@@ -4,7 +4,7 @@
 ///
 /// They stand behind position, velocity and stress (core/base/vec.hpp), in the order of this list. Everything
 /// that goes over the columns of a state takes them along: schemes, the error norm, dense output, history,
-/// subdomains and checkpoints; frames do not show them yet. A scene that adds none has none.
+/// subdomains, checkpoints and frames. A scene that adds none has none.
 
 #include <string>
 #include <vector>

@@ -6,7 +6,8 @@
 
 namespace treejet {
 
-enum class EventKind { place, release, removal };
+/// What ends a smooth piece of the solution; observers are told of the first three.
+enum class EventKind { place, release, removal, kink };
 
 template <int D>
 class Observer {

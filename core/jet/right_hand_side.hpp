@@ -40,6 +40,10 @@ class RightHandSide {
     return !known;
   }
 
+  /// A right-hand side that is smooth in pieces of time: from t on, until the time it gives back, all stages
+  /// see the smooth continuation of the piece that begins at t. The march ends a step there and asks anew.
+  virtual double smooth_from(double /*t*/) { return std::numeric_limits<double>::infinity(); }
+
   /// The longest step that a right-hand side which extrapolates what it remembers allows from here.
   virtual double longest_step() const { return std::numeric_limits<double>::infinity(); }
 

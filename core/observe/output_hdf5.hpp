@@ -18,6 +18,7 @@ class Hdf5Trajectory final : public Sampling<D> {
     Scales scales;
     double nozzle_radius;  ///< cm
     double interval;       ///< scaled
+    Columns added = {};    ///< of the scene
   };
 
   Hdf5Trajectory(const Setting& setting, std::shared_ptr<H5mdTrajectory> file)
@@ -38,7 +39,7 @@ class Hdf5Trajectory final : public Sampling<D> {
 
  protected:
   void sample(const Jet<D>& jet) override {
-    file_->append(frame<D>(jet, setting_.nozzle, setting_.scales, setting_.nozzle_radius));
+    file_->append(frame<D>(jet, setting_.nozzle, setting_.scales, setting_.nozzle_radius, setting_.added));
   }
 
  private:

@@ -115,7 +115,7 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
   }
   if (hdf5) {
     using Frames = Hdf5Trajectory<D>;
-    const typename Frames::Setting frames{nozzle, s, p.nozzle_cross, *p.print_hdf5 / s.time};
+    const typename Frames::Setting frames{nozzle, s, p.nozzle_cross, *p.print_hdf5 / s.time, setting.added};
     watch("traj.h5", std::make_unique<Frames>(frames, hdf5), decomposition);
   }
   if (!files_.empty()) keep_record(setting);
@@ -156,8 +156,9 @@ std::shared_ptr<H5mdTrajectory> Outputs<D>::trajectory_file(const Parameters& p,
                                                             const OutputSetting& setting) {
   const auto path = setting.directory / "traj.h5";
   files_.insert(files_.end(), {path, setting.directory / "traj.xdmf"});
-  return std::make_shared<H5mdTrajectory>(path, H5md::Content{setting.made_by, hdf5_observables(p)},
-                                          setting.existing);
+  return std::make_shared<H5mdTrajectory>(
+      path, H5md::Content{setting.made_by, hdf5_observables(p), frame_columns_of(setting.added)},
+      setting.existing);
 }
 
 template <int D>

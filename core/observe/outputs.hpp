@@ -11,6 +11,7 @@
 
 #include "core/base/output_file.hpp"
 #include "core/io/run_record.hpp"
+#include "core/jet/columns.hpp"
 #include "core/jet/decomposition.hpp"
 #include "core/jet/observer.hpp"
 #include "core/jet/parameters.hpp"
@@ -34,6 +35,7 @@ struct OutputSetting {
   Provenance made_by = {};
   Circumstances circumstances = {};
   const FieldErrorReport* force_error = nullptr;  ///< null: exact forces
+  Columns added = {};                             ///< of the scene, for frames
   const CheckpointParts* resumed = nullptr;       ///< what to go on from, null for a new run
 };
 

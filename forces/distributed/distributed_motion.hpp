@@ -27,6 +27,7 @@ class DistributedMotion final : public RightHandSide<3> {
   }
 
   void operator()(const Jet<3>& jet, double t, const State<3>& y, State<3>& slope) override;
+  double smooth_from(double t) override { return local_.smooth_from(t); }
 
   /// Null without charges.
   const FieldErrorReport* error() const { return solver_ ? &solver_->report().error : nullptr; }

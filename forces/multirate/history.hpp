@@ -85,6 +85,7 @@ class History {
   /// Where the parabola may be used already, `now` comes with its far field. False if it has taken the place
   /// of the last moment, which was too near in time.
   bool remember(PastEvaluation<D>&& now);
+  void forget() { *this = {}; }
   void before_removal(const Jet<D>& jet, double Q);
   void after_release(const Jet<D>& jet, double Q);
 

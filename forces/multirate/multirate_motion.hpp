@@ -41,6 +41,10 @@ class MultirateMotion final : public RightHandSide<D> {
   void operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) override;
   bool on_accepted_step(const Jet<D>& jet, double t, const State<D>& y, const State<D>* known,
                         State<D>& slope) override;
+  double smooth_from(double t) override {
+    history_.forget();
+    return full_.smooth_from(t);
+  }
   double longest_step() const override {
     return history_.continuable(history_.beads()) ? interval_ : RightHandSide<D>::longest_step();
   }

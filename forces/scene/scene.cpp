@@ -30,21 +30,24 @@ bool ends_in_half_a_cell(const Parameters& p) {
 
 /// Beads at x_i = initial length - i l_step, at the nozzle velocity and stress: those with these numbers.
 template <int D>
-Jet<D> initial_jet(const Parameters& p, const std::vector<int>& beads) {
+Jet<D> initial_jet(const Parameters& p, const std::vector<int>& beads, const Columns& added) {
   const Scales s = scales(p);
   const auto n = static_cast<Eigen::Index>(beads.size());
   Vec<D> r = Vec<D>::Zero(), v = Vec<D>::Zero();
   v[0] = p.nozzle_velocity / s.velocity;
   Jet<D> jet;
-  jet.y.resize(n, Eigen::NoChange);
+  jet.y.resize(n, own_columns<D> + static_cast<Eigen::Index>(added.size()));
   jet.mass.setOnes(n);
   jet.charge.setOnes(n);
   jet.volume.setOnes(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     r[0] = (initial_elements(p) - beads[static_cast<std::size_t>(i)]) * s.l_step / s.length;
     if (beads[static_cast<std::size_t>(i)] == 0 && ends_in_half_a_cell(p)) jet.mass[i] = jet.charge[i] = 0.5;
-    jet.y.row(i) << r.transpose().array(), v.transpose().array(), p.nozzle_stress / s.stress;
+    jet.y.row(i).template head<own_columns<D>>() << r.transpose().array(), v.transpose().array(),
+        p.nozzle_stress / s.stress;
   }
+  for (std::size_t k = 0; k < added.size(); ++k)
+    jet.y.col(own_columns<D> + static_cast<Eigen::Index>(k)).setConstant(added[k].at_birth);
   return jet;
 }
 
@@ -72,7 +75,7 @@ class Composer {
     return std::make_unique<HerschelBulkley<D>>(p_.yield_stress / s.stress, K, p_.hb_index);
   }
 
-  std::vector<std::unique_ptr<ForceTerm<D>>> local_terms() {
+  std::vector<std::unique_ptr<ForceTerm<D>>> local_terms(OwnTerms<D>& own) {
     add(
         true, "", [&] { return std::make_unique<Viscoelastic<D>>(g_.L_step, g_.F_ve); },
         "viscoelastic force");
@@ -97,7 +100,21 @@ class Composer {
         p_.self_field == SelfField::slender && g_.Q != 0,
         g_.Q == 0 ? "density charge is 0" : "self field point",
         [&] { return std::make_unique<SlenderSelfField<D>>(g_.Q, section()); }, "slender self-field");
+    for (auto& force : own.forces) {
+      composed.push_back({std::string(force->name()), "the caller's own"});
+      terms_.push_back(std::move(force));
+    }
+    for (const auto& term : terms_)
+      if (!term->extrapolates()) hasty_ = term->name();
     return std::move(terms_);
+  }
+
+  std::vector<std::unique_ptr<ColumnRate<D>>> column_rates(OwnTerms<D>& own) {
+    for (auto& rate : own.columns) {
+      columns.push_back(rate->column());
+      composed.push_back({"column " + columns.back().name, "the caller's own"});
+    }
+    return std::move(own.columns);
   }
 
   /// Null without charge, or where the subdomains' own solver adds it.
@@ -130,6 +147,7 @@ class Composer {
   /// Multirate needs an error to hold, a sum over all pairs to take apart, and slopes that a parabola can
   /// continue in time.
   bool multirate() {
+    const std::string hasty = hasty_.empty() ? "" : hasty_ + " does not let itself be extrapolated";
     const char* why_not =
         !p_.tolerance                            ? "a fixed timestep has no error to hold"
         : p_.multirate == Multirate::no          ? "multirate no"
@@ -139,12 +157,14 @@ class Composer {
         : in_pieces()                            ? "parallel distributed"
         : !smooth_stress()                       ? "the stress law has a kink or a jump at strain rate 0"
         : stiffness(p_).relaxes_between_beads()  ? "stress relaxes within the interval of beads"
+        : !hasty.empty()                         ? hasty.c_str()
                                                  : nullptr;
     note(!why_not, "two rates", "multirate auto", why_not);
     return !why_not;
   }
 
   std::vector<Composed> composed, left_out;
+  Columns columns;
 
  private:
   Section section() const { return {p_.nozzle_cross / scales(p_).length, g_.L_step}; }
@@ -173,6 +193,7 @@ class Composer {
   Groups g_;
   const Ranks& ranks_;
   std::vector<std::unique_ptr<ForceTerm<D>>> terms_;
+  std::string hasty_;  ///< a term whose force multirate may not extrapolate
 };
 
 std::vector<int> whole_jet(const Parameters& p) {
@@ -195,23 +216,26 @@ void hold_in_pieces(Scene<3>& scene, const Parameters& p, int beads, const JetOf
 }
 
 template <int D>
-Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks) {
+Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks, OwnTerms<D> own) {
   Composer<D> composer(p, ranks);
   auto law = composer.stress_law();
-  auto local_terms = composer.local_terms();
+  auto local_terms = composer.local_terms(own);
+  auto column_rates = composer.column_rates(own);
   auto coulomb = composer.coulomb();
   composer.boundaries();
-  const Nozzle<D> nozzle(p);
+  const Columns& columns = composer.columns;
+  const Nozzle<D> nozzle(p, columns);
   const std::vector<int> beads = composer.in_pieces() ? std::vector<int>() : whole_jet(p);
   Scene<D> scene{
-      initial_jet<D>(p, beads), nozzle, Collector(p), nullptr, nullptr, nullptr, nullptr, nullptr, {}, {}};
+      initial_jet<D>(p, beads, columns), nozzle, Collector(p), {}, {}, {}, {}, nullptr, columns, {}, {}};
   scene.motion = std::make_unique<EquationsOfMotion<D>>(nozzle, std::move(law), std::move(local_terms),
                                                         std::move(coulomb), threads);
+  for (auto& rate : column_rates) scene.motion->add_column(std::move(rate));
   if (composer.multirate())
-    scene.multirate = std::make_unique<MultirateMotion<D>>(*scene.motion, ErrorNorm(p));
+    scene.multirate = std::make_unique<MultirateMotion<D>>(*scene.motion, ErrorNorm(p, columns));
   if constexpr (D == 3)
     if (composer.in_pieces()) {
-      const auto jet_of = [&](const std::vector<int>& rows) { return initial_jet<3>(p, rows); };
+      const auto jet_of = [&](const std::vector<int>& rows) { return initial_jet<3>(p, rows, columns); };
       hold_in_pieces(scene, p, initial_elements(p), jet_of, threads, ranks);
     }
   scene.composed = std::move(composer.composed);
@@ -219,7 +243,7 @@ Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks) {
   return scene;
 }
 
-template Scene<1> compose<1>(const Parameters&, Threads, const Ranks&);
-template Scene<3> compose<3>(const Parameters&, Threads, const Ranks&);
+template Scene<1> compose<1>(const Parameters&, Threads, const Ranks&, OwnTerms<1>);
+template Scene<3> compose<3>(const Parameters&, Threads, const Ranks&, OwnTerms<3>);
 
 }  // namespace treejet

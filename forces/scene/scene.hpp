@@ -1,6 +1,6 @@
 #pragma once
-/// A scene: what a deck's parameters compose, ready to move. Only the terms that the deck names are in it;
-/// for each one left out, `left_out` tells why.
+/// A scene: what a deck's parameters compose, ready to move. Only the terms that the deck names are in it,
+/// and those that a caller brings along; for each one left out, `left_out` tells why.
 
 #include <functional>
 #include <string>
@@ -20,6 +20,15 @@ struct Composed {
   std::string term, reason;
 };
 
+/// Physics of a caller's own: it stands behind the terms of the deck, and multirate, subdomains, checkpoints
+/// and frames treat it as they treat these.
+template <int D>
+struct OwnTerms {
+  std::vector<std::unique_ptr<ForceTerm<D>>> forces;
+  std::vector<std::unique_ptr<ColumnRate<D>>>
+      columns;  ///< names are those of files: small letters, digits, _
+};
+
 template <int D>
 struct Scene {
   Jet<D> jet;  ///< the initial jet
@@ -31,6 +40,7 @@ struct Scene {
   std::unique_ptr<Decomposition<D>> pieces;
   std::unique_ptr<RightHandSide<D>> pieces_motion;
   const FieldErrorReport* pieces_error = nullptr;
+  Columns columns;  ///< added to the state
   std::vector<Composed> composed, left_out;
 
   /// The right-hand side to step with.
@@ -55,6 +65,7 @@ void hold_in_pieces(Scene<3>& scene, const Parameters& parameters, int beads, co
                     Threads threads, const Ranks& ranks);
 
 template <int D>
-Scene<D> compose(const Parameters& parameters, Threads threads, const Ranks& ranks = {});
+Scene<D> compose(const Parameters& parameters, Threads threads, const Ranks& ranks = {},
+                 OwnTerms<D> own = {});
 
 }  // namespace treejet

@@ -9,6 +9,8 @@
 /// of the terms, so the bits of the result do not depend on the number of threads. Source: paper, Sec.
 /// "Equations of motion", scaled form.
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,6 +33,12 @@ class EquationsOfMotion final : public RightHandSide<D> {
   void operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) override;
 
   void differentiate(const Jet<D>& jet, double t, const State<D>& y, LocalJacobian<D>& J) override;
+
+  double smooth_from(double t) override {
+    double until = std::numeric_limits<double>::infinity();
+    for (auto& term : local_terms_) until = std::min(until, term->smooth_from(t));
+    return until;
+  }
 
   void visit(Archive& state) override {
     if (coulomb_) state(*coulomb_);

@@ -12,6 +12,7 @@
 /// of the bead it acts on.
 
 #include <algorithm>
+#include <limits>
 #include <string_view>
 
 #include "core/jet/chain.hpp"
@@ -44,6 +45,11 @@ class ForceTerm {
   /// Whether the force on a bead far from the ends, left to itself, changes so smoothly in time that
   /// multirate may extrapolate it over several steps.
   virtual bool extrapolates() const { return true; }
+
+  /// A force that jumps or bends at certain times: from t on, until the time given back, `add` is to be the
+  /// smooth continuation of the piece that begins at t, whatever the time of the stage. The march ends a step
+  /// at that time and asks anew; multirate forgets what it remembers of the piece before.
+  virtual double smooth_from(double /*t*/) { return std::numeric_limits<double>::infinity(); }
 
   /// Adds what the term contributes to the tension's answer, or to that of a bead's acceleration to its own
   /// velocity; nothing if its force is slow or not local.

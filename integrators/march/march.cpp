@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "core/base/error.hpp"
 #include "integrators/march/diagnosis.hpp"
@@ -87,7 +88,7 @@ void March<D>::step(double h) {
   } else {
     parts_.stepper.step(parts_.motion, jet_, jet_, h, next_.y);
   }
-  next_.t = jet_.t + h;
+  next_.t = h == piece_end_ - jet_.t ? piece_end_ : jet_.t + h;
   effort_.evaluations += parts_.stepper.evaluations();
   ++effort_.steps;
 }
@@ -146,9 +147,18 @@ double March<D>::attempt(double end) {
   }
 }
 
+/// Within a piece the right-hand side is smooth; the slope found at its end is that of the piece before.
+template <int D>
+void March<D>::begin_piece() {
+  piece_begin_ = jet_.t;
+  piece_end_ = parts_.motion.smooth_from(jet_.t);
+  if (!(piece_end_ > jet_.t)) throw std::logic_error("a piece of time without length");
+}
+
 template <int D>
 void March<D>::start() {
   for (auto* w : parts_.observers) w->start(jet_);
+  begin_piece();
   evaluate(jet_);
   halt_if(not_finite<D>(jet_.y, jet_.slope, parts_.decomposition.before(jet_)), jet_.t);
   // a nozzle that circles far off the axis begins beyond the place where it lets a bead go
@@ -164,7 +174,12 @@ bool March<D>::to(double end) {
   if (!under_way_) start();
   while (jet_.t < end && jet_.size() > 0) {
     if (parts_.stop_here && parts_.stop_here()) return false;
-    const double reach = attempt(end);
+    if (jet_.t >= piece_end_) {
+      begin_piece();
+      parts_.control.event(EventKind::kink);
+      evaluate(jet_);
+    }
+    const double reach = attempt(std::min(end, piece_end_));
     halt_if(state_check<D>(jet_.y, next_.y, parts_.nozzle.l_step(), parts_.decomposition.before(jet_)),
             next_.t);
     evaluate(next_, parts_.stepper.slope_at_end());
@@ -183,6 +198,9 @@ bool March<D>::to(double end) {
 template <int D>
 void March<D>::visit(Archive& state) {
   const auto columns = jet_.y.cols();
+  state(piece_begin_);
+  if (state.reading())
+    piece_end_ = parts_.motion.smooth_from(piece_begin_);  // before it reads what it remembers
   state(jet_, parts_.motion, parts_.control, forecast_, effort_, under_way_);
   if (!state.reading()) return;
   const auto n = jet_.size();

@@ -5,7 +5,8 @@
 /// (core/jet/dense_output.hpp). Order at one instant: insertion, then removal, then whatever these have made
 /// due, until nothing is. The last bead is never removed while beads are inserted; without insertion the
 /// march ends with an empty jet. With EventRule::step both are looked for at the ends of steps only, at most
-/// one of each a step: JETSPIN's way, first order in the step whatever the scheme.
+/// one of each a step: JETSPIN's way, first order in the step whatever the scheme. No step goes over the end
+/// of a piece of time within which the right-hand side is smooth.
 ///
 /// Errors: NumericalError names bead, time and likely cause when the state is no longer finite, a step falls
 /// below round-off, or beads of a straight jet have crossed. The watchers have seen everything up to there.
@@ -71,6 +72,7 @@ class March {
 
   bool aims() const { return parts_.control.steps_to_events() && parts_.events == EventRule::located; }
   void start();
+  void begin_piece();
   void evaluate(SolutionPoint<D>& point, const State<D>* known = nullptr);
   void step(double h);
   double error() const;
@@ -96,7 +98,8 @@ class March {
   Forecast<D> forecast_;
   State<D> one_;
   Effort effort_;
-  bool under_way_ = false;  ///< started, and not yet at the end
+  double piece_begin_ = 0, piece_end_ = 0;  ///< within which the right-hand side is smooth
+  bool under_way_ = false;                  ///< started, and not yet at the end
 };
 
 }  // namespace treejet

@@ -103,7 +103,7 @@ class AdaptiveStep final : public StepControl {
   double previous_error_ = 1e-4;
   bool rejected_ = false;
   std::optional<EventKind> after_;    ///< an event, unless a step has been made since
-  std::array<double, 3> first_ = {};  ///< allowed after each kind of event; 0: none yet
+  std::array<double, 4> first_ = {};  ///< allowed after each kind of event; 0: none yet
 };
 
 }  // namespace treejet

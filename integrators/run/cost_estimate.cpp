@@ -172,8 +172,7 @@ std::vector<PlannedFile> planned_files(const Parameters& p, const Plan& plan) {
   }
   if (p.print_hdf5) {
     constexpr double compression = 0.46, describing = 30000, grid = 2400;
-    double point = sizeof(std::int64_t);
-    for (const auto& c : frame_columns) point += double(sizeof(double)) * c.width;
+    const auto point = static_cast<double>(bytes_of_point(frame_columns()));
     const double frames = samples_to(p.final_time, *p.print_hdf5);
     files.push_back({"traj.h5", describing + frames * points * point * compression});
     files.push_back({"traj.xdmf", frames * grid});

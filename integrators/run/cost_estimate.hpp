@@ -52,7 +52,7 @@ struct Plan {
 };
 
 struct PlannedFile {
-  std::string name;
+  const char* name;
   double bytes;
 };
 

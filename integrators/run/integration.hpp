@@ -20,11 +20,12 @@ struct System {
   const Nozzle<D>& nozzle;
   const Collector& collector;
   Decomposition<D>& decomposition = undivided<D>;
+  Columns columns = {};  ///< that the scene adds to the state
 };
 
 template <int D>
 System<D> system(Scene<D>& scene, RightHandSide<D>& right_hand_side) {
-  return {scene.jet, right_hand_side, scene.nozzle, scene.collector, scene.decomposition()};
+  return {scene.jet, right_hand_side, scene.nozzle, scene.collector, scene.decomposition(), scene.columns};
 }
 
 template <int D>
@@ -47,7 +48,7 @@ class Integration {
                .nozzle = system.nozzle,
                .collector = system.collector,
                .events = p.events,
-               .norm = ErrorNorm(p),
+               .norm = ErrorNorm(p, system.columns),
                .observers = std::move(observers),
                .stop_here = std::move(stop_here),
                .decomposition = system.decomposition}) {}

@@ -8,7 +8,8 @@ namespace treejet {
 
 namespace {
 
-OutputSetting output_setting(OutputSetting outputs, const Checkpoint* resumed) {
+OutputSetting output_setting(OutputSetting outputs, const Columns& added, const Checkpoint* resumed) {
+  outputs.added = added;
   if (resumed) {
     outputs.existing = OutputFile::Existing::resume;
     outputs.resumed = &resumed->state;
@@ -24,7 +25,7 @@ Simulation<D>::Simulation(const Deck& deck, const System<D>& system, const Setti
       time_unit_(scales(deck.parameters).time),
       jet_(system.jet),
       decomposition_(system.decomposition),
-      setting_{output_setting(setting.outputs, setting.resumed), setting.stop_request},
+      setting_{output_setting(setting.outputs, system.columns, setting.resumed), setting.stop_request},
       lock_(setting.outputs.elsewhere
                 ? std::optional<DirectoryLock>()
                 : std::optional<DirectoryLock>(std::in_place, setting.outputs.directory)),

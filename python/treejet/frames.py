@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Optional, Union
 
@@ -31,6 +31,7 @@ class Frame:
     charge: Optional[np.ndarray] = None  #: statC
     mass: Optional[np.ndarray] = None  #: g
     radius: Optional[np.ndarray] = None  #: cm
+    added: dict[str, np.ndarray] = field(default_factory=dict)  #: columns that the scene adds, by name
 
     def __len__(self) -> int:
         return len(self.position)
@@ -68,6 +69,11 @@ class H5Frames(Sequence):
             self._file = h5py.File(path, "r")
             self._jet = self._file["particles/jet"]
             self.times: np.ndarray = self._jet["position/time"][...]
+            #: of the columns that the scene adds, by name
+            self.added_units: dict[str, str] = {}
+            if "parameters/columns" in self._file:
+                lines = self._file["parameters/columns"].asstr()[()].splitlines()
+                self.added_units = {name: unit for name, _, unit in (line.partition(" ") for line in lines)}
         except (OSError, KeyError) as problem:
             raise FileError(f"{path}: cannot be read as a trajectory of treejet: {problem}") from None
 
@@ -80,8 +86,9 @@ class H5Frames(Sequence):
         k = range(len(self))[k]
         ids = self._jet["id/value"][k]
         points = int((ids >= 0).sum())
-        columns = {name: self._jet[f"{name}/value"][k, :points] for name in ("position", *COLUMNS)}
-        return Frame(time=float(self.times[k]), id=ids[:points], **columns)
+        columns, added = ({name: self._jet[f"{name}/value"][k, :points] for name in names}
+                          for names in (("position", *COLUMNS), self.added_units))
+        return Frame(time=float(self.times[k]), id=ids[:points], added=added, **columns)
 
 
 class XyzFrames(Sequence):

@@ -28,9 +28,11 @@ Frame frame_of(int k) {
   const int beads = k * 53 % 300;
   for (int i = 0; i < beads; ++i) f.id.push_back(k + i + 1);
   f.id.push_back(0);
-  for (std::size_t c = 0; c < frame_columns.size(); ++c)
-    for (std::size_t i = 0; i < f.points() * static_cast<std::size_t>(frame_columns[c].width); ++i)
-      f.columns[c].push_back(any(random));
+  for (const FrameColumn& column : frame_columns({{"solvent", "g"}})) {
+    std::vector<double>& values = f.columns.emplace_back();
+    for (std::size_t i = 0; i < f.points() * static_cast<std::size_t>(column.width); ++i)
+      values.push_back(any(random));
+  }
   return f;
 }
 
@@ -47,7 +49,8 @@ const H5md::Content content{{"1.2.3",
                              "input.dat",
                              "system 3\nfinish\n",
                              {"tolerance 1.d-5"}},
-                            {"x", "curn"}};
+                            {"x", "curn"},
+                            {{"solvent", "g"}}};
 constexpr int frames = 70;
 
 /// Frames from `first` on, with a row every other one; `after` is told each.
@@ -95,6 +98,8 @@ TEST_CASE("A trajectory read back is the one written, to the bit, and tells what
   CHECK(rows[17].time == row_of(17).time);
   CHECK(rows[17].values == row_of(17).values);
   CHECK(file.content().keys == content.keys);
+  CHECK(file.columns().back().name == "solvent");
+  CHECK(file.columns().back().unit == "g");
   CHECK(description(file.content().made_by) == description(content.made_by));
 }
 
