@@ -20,6 +20,10 @@ struct Provenance {
   std::vector<std::string> overrides;
 };
 
+/// Between the number of a version and the name of physics that is not stock
+/// (integrators/run/own_physics.hpp).
+inline constexpr const char* own_physics_mark = " with physics of its own: ";
+
 Provenance provenance(const Deck& deck, std::string_view isa_name);
 
 /// "treejet 0.1.0 (git 47df22d), GNU 12.2.0, Release build, avx512 vectors"

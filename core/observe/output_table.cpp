@@ -11,12 +11,12 @@
 
 namespace treejet {
 
-namespace {
 std::string label(const std::string& key) {
   const ObservableKey* known = observable_key(key);
   return known ? fmt::format("{}[{}]", key, known->unit) : key;
 }
 
+namespace {
 /// A terminal that has gone does not end the run; the front door tells of the failure in the end.
 void put(const std::string& text) {
   std::fputs(text.c_str(), stdout);
@@ -24,12 +24,11 @@ void put(const std::string& text) {
 }
 }  // namespace
 
-StatFile::StatFile(OutputFile file, const std::vector<std::string>& keys, const Provenance& made_by)
+StatFile::StatFile(OutputFile file, const std::vector<std::string>& labels, const Provenance& made_by)
     : file_(std::move(file)) {
   if (!file_.is_new()) return;
   std::string header = "#";
-  for (const auto& key : keys) {
-    std::string word = label(key);
+  for (std::string word : labels) {
     std::replace(word.begin(), word.end(), ' ', '*');  // one word a column for readers that split at blanks
     header += " " + word;
   }
@@ -56,7 +55,7 @@ void TerminalTable::row(const std::vector<double>& values) {
   constexpr int rows_a_header = 50;
   std::string text;
   if (rows_++ % rows_a_header == 0) {
-    for (const auto& key : keys_) text += fmt::format("{:>16}", label(key));
+    for (const auto& label : labels_) text += fmt::format("{:>16}", label);
     text += "\n";
   }
   for (double v : values) text += std::isnan(v) ? fmt::format("{:>16}", "-") : fmt::format("{:>16.8g}", v);

@@ -15,9 +15,21 @@
 
 namespace treejet {
 
+/// "key[unit]" of a key of core/deck/observable_keys.hpp.
+std::string label(const std::string& key);
+
+/// The heads of the columns, "key[unit]": those of the deck, and behind them a caller's own.
+template <int D>
+std::vector<std::string> labels(const std::vector<std::string>& keys, const OwnObservables<D>& own) {
+  std::vector<std::string> all;
+  for (const auto& key : keys) all.push_back(label(key));
+  for (const auto& o : own) all.push_back(o.key + "[" + o.unit + "]");
+  return all;
+}
+
 class StatFile final : public RowSink {
  public:
-  StatFile(OutputFile file, const std::vector<std::string>& keys, const Provenance& made_by);
+  StatFile(OutputFile file, const std::vector<std::string>& labels, const Provenance& made_by);
   void row(const std::vector<double>& values) override;
   void remark(const std::string& text) override;
   void finish() override { file_.sync(); }
@@ -29,12 +41,12 @@ class StatFile final : public RowSink {
 
 class TerminalTable final : public RowSink {
  public:
-  explicit TerminalTable(std::vector<std::string> keys) : keys_(std::move(keys)) {}
+  explicit TerminalTable(std::vector<std::string> labels) : labels_(std::move(labels)) {}
   void row(const std::vector<double>& values) override;
   void remark(const std::string& text) override;
 
  private:
-  std::vector<std::string> keys_;
+  std::vector<std::string> labels_;
   int rows_ = 0;
 };
 

@@ -81,7 +81,8 @@ class RecordKeeper final : public Observer<D> {
 
 template <int D>
 Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
-                    const OutputSetting& setting, const Decomposition<D>& decomposition)
+                    const OutputSetting& setting, const Decomposition<D>& decomposition,
+                    const OwnObservables<D>& own)
     : maxnum_(p.xyz_maxnum), force_error_(setting.force_error) {
   if (setting.elsewhere) {
     contribute(p, setting, decomposition);
@@ -93,17 +94,20 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
     files_.push_back(setting.directory / name);
     return OutputFile(files_.back(), setting.existing);
   };
-  const std::shared_ptr<H5mdTrajectory> hdf5 = p.print_hdf5 ? trajectory_file(p, setting) : nullptr;
+  const std::shared_ptr<H5mdTrajectory> hdf5 = p.print_hdf5 ? trajectory_file(p, setting, own) : nullptr;
   if (makes_rows(p, setting)) {
     auto rows = recorder<D>(p, nozzle, collector, setting.force_error);
     rows->add(p.print_list,
-              makes_table(p, setting) ? std::make_unique<TerminalTable>(p.print_list) : nullptr);
+              makes_table(p, setting) ? std::make_unique<TerminalTable>(labels(p.print_list, own)) : nullptr,
+              own);
     if (!p.printstat_list.empty()) {
-      rows->add(p.printstat_list,
-                std::make_unique<StatFile>(file("statdat.dat"), p.printstat_list, setting.made_by));
+      rows->add(
+          p.printstat_list,
+          std::make_unique<StatFile>(file("statdat.dat"), labels(p.printstat_list, own), setting.made_by),
+          own);
     }
     if (const auto keys = hdf5_observables(p); !keys.empty())
-      rows->add(after_time(keys), std::make_unique<Hdf5Rows>(hdf5));
+      rows->add(after_time(keys), std::make_unique<Hdf5Rows>(hdf5), own);
     watch("rows", std::move(rows), decomposition);
   }
   if (p.print_xyz) {
@@ -152,13 +156,17 @@ void Outputs<D>::contribute(const Parameters& p, const OutputSetting& setting,
 }
 
 template <int D>
-std::shared_ptr<H5mdTrajectory> Outputs<D>::trajectory_file(const Parameters& p,
-                                                            const OutputSetting& setting) {
+std::shared_ptr<H5mdTrajectory> Outputs<D>::trajectory_file(const Parameters& p, const OutputSetting& setting,
+                                                            const OwnObservables<D>& own) {
   const auto path = setting.directory / "traj.h5";
   files_.insert(files_.end(), {path, setting.directory / "traj.xdmf"});
-  return std::make_shared<H5mdTrajectory>(
-      path, H5md::Content{setting.made_by, hdf5_observables(p), frame_columns_of(setting.added)},
-      setting.existing);
+  H5md::Content content{setting.made_by, hdf5_observables(p), frame_columns_of(setting.added)};
+  if (!content.keys.empty())
+    for (const auto& o : own) {
+      content.keys.push_back(o.key);
+      content.units[o.key] = o.unit;
+    }
+  return std::make_shared<H5mdTrajectory>(path, std::move(content), setting.existing);
 }
 
 template <int D>

@@ -15,6 +15,7 @@
 #include "core/jet/decomposition.hpp"
 #include "core/jet/observer.hpp"
 #include "core/jet/parameters.hpp"
+#include "core/observe/own_observable.hpp"
 
 namespace treejet {
 
@@ -44,7 +45,8 @@ class Outputs {
  public:
   /// Opens the files; FileError if one exists already or cannot be made, and then none has been made.
   Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
-          const OutputSetting& setting, const Decomposition<D>& decomposition = undivided<D>);
+          const OutputSetting& setting, const Decomposition<D>& decomposition = undivided<D>,
+          const OwnObservables<D>& own = {});
   ~Outputs();
 
   std::vector<Observer<D>*> observers() const;
@@ -58,7 +60,8 @@ class Outputs {
   template <class Samples>
   Samples& watch(const std::string& name, std::unique_ptr<Samples> watcher,
                  const Decomposition<D>& decomposition);
-  std::shared_ptr<H5mdTrajectory> trajectory_file(const Parameters& p, const OutputSetting& setting);
+  std::shared_ptr<H5mdTrajectory> trajectory_file(const Parameters& p, const OutputSetting& setting,
+                                                  const OwnObservables<D>& own);
   void keep_record(const OutputSetting& setting);
 
   struct Named {

@@ -13,12 +13,15 @@ Recorder<D>::Recorder(const Setting& setting)
 }
 
 template <int D>
-void Recorder<D>::add(const std::vector<std::string>& keys, std::unique_ptr<RowSink> sink) {
+void Recorder<D>::add(const std::vector<std::string>& keys, std::unique_ptr<RowSink> sink,
+                      const OwnObservables<D>& own) {
   List list{{}, std::move(sink)};
   for (const auto& key : keys) {
     list.observables.push_back(observable<D>(key));
     if (has(key, along_path)) statistics_.follow_path();
   }
+  for (const auto& o : own)
+    list.observables.push_back([value = o.value](const View<D>& view) { return value(view.jet); });
   lists_.push_back(std::move(list));
 }
 

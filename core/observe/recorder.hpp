@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/observe/observables.hpp"
+#include "core/observe/own_observable.hpp"
 #include "core/observe/sampling.hpp"
 
 namespace treejet {
@@ -36,8 +37,10 @@ class Recorder final : public Sampling<D> {
 
   explicit Recorder(const Setting& setting);
 
-  /// Sends the keys' values to the sink at every row. Without a sink the keys are only followed.
-  void add(const std::vector<std::string>& keys, std::unique_ptr<RowSink> sink);
+  /// Sends the keys' values, and behind them a caller's own, to the sink at every row. Without a sink the
+  /// keys are only followed.
+  void add(const std::vector<std::string>& keys, std::unique_ptr<RowSink> sink,
+           const OwnObservables<D>& own = {});
 
   void start(const Jet<D>& jet) override;
   void segment(const Jet<D>& jet, const DenseOutput<D>& segment) override;

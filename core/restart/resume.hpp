@@ -12,7 +12,7 @@ struct Resumption {
   std::vector<std::string> warnings;  ///< about checkpoints passed over, or made by another program
 };
 
-/// FileError without a sound checkpoint.
+/// FileError without a sound checkpoint; InputError if it is of other physics than the program has.
 Resumption resumption(const std::filesystem::path& directory, const std::string& program);
 
 /// InputError that names the directives in which a deck differs from that of the checkpoint.

@@ -41,10 +41,10 @@ std::vector<SheetRow> plan_rows(const Plan& e) {
 }
 
 template <int D>
-void check(const Deck& deck, bool json) {
+void check(const Deck& deck, bool json, const OwnPhysics& own) {
   const Parameters& p = deck.parameters;
   expect_feasible_trial(p);
-  Scene<D> scene = compose<D>(p, {available_cores()});
+  Scene<D> scene = compose<D>(p, {available_cores()}, {}, own_terms<D>(own, p));
   if (!json) {
     fmt::print("{}: a complete deck\n{}{}{}", deck.name, notes(deck), scales_description(p),
                composition(scene.composed, scene.left_out));
@@ -63,9 +63,9 @@ void check(const Deck& deck, bool json) {
 
 }  // namespace
 
-void check_deck(const Arguments& a) {
+void check_deck(const Arguments& a, const OwnPhysics& own) {
   const Deck deck = read_deck(a.deck, a.overrides);
-  deck.parameters.system == 1 ? check<1>(deck, a.json) : check<3>(deck, a.json);
+  deck.parameters.system == 1 ? check<1>(deck, a.json, own) : check<3>(deck, a.json, own);
 }
 
 }  // namespace treejet

@@ -20,6 +20,12 @@ namespace treejet {
 
 namespace {
 
+Provenance made(const Deck& deck, const OwnPhysics& own) {
+  Provenance p = provenance(deck, isa_name());
+  if (!own.name.empty()) p.version += own_physics_mark + own.name;
+  return p;
+}
+
 /// "2 ranks, 4 threads each".
 std::string workers_description(const Ranks& ranks, Threads threads) {
   if (ranks.size() == 1) return threads_description(threads);
@@ -50,18 +56,20 @@ class StopVote {
 };
 
 template <int D>
-int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* checkpoint) {
-  const Provenance made_by = provenance(deck, isa_name());
+int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysics& own,
+        Checkpoint* checkpoint) {
+  const Provenance made_by = made(deck, own);
   ranks.require_same(program(made_by), deck_description(deck.name, deck.text, deck.overrides));
   const Parameters& p = deck.parameters;
   const Threads each = threads(a, ranks);
   const std::string directory = checkpoint ? a.resume : a.out;
   StopVote stop(p, a, ranks);
-  Scene<D> scene = compose<D>(p, each, ranks);
+  Scene<D> scene = compose<D>(p, each, ranks, own_terms<D>(own, p));
   const OutputSetting outputs{directory,          existing(a), a.quiet,
                               !ranks.first(),     made_by,     {ranks.size(), each.count},
                               scene.force_error()};
-  Simulation<D> simulation(deck, system(scene), {outputs, [&stop] { return stop(); }, checkpoint});
+  Simulation<D> simulation(deck, system(scene),
+                           {outputs, [&stop] { return stop(); }, checkpoint, own_observables<D>(own)});
   if (!a.quiet) {
     fmt::print("{}\n{}\n{}{}", program(made_by), deck.name, notes(deck),
                composition(scene.composed, scene.left_out));
@@ -81,9 +89,10 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* ch
   return 0;
 }
 
-int run(const Deck& deck, const Arguments& a, const Ranks& ranks, Checkpoint* checkpoint = nullptr) {
+int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysics& own,
+        Checkpoint* checkpoint = nullptr) {
   const bool straight = deck.parameters.system == 1;
-  return straight ? run<1>(deck, a, ranks, checkpoint) : run<3>(deck, a, ranks, checkpoint);
+  return straight ? run<1>(deck, a, ranks, own, checkpoint) : run<3>(deck, a, ranks, own, checkpoint);
 }
 
 /// Whether the run in a directory has come to its end. FileError if another process is at it.
@@ -96,8 +105,8 @@ bool is_completed(const std::string& directory, const Ranks& ranks) {
 
 }  // namespace
 
-std::string version_text() {
-  return program(provenance({}, isa_name()));
+std::string version_text(const OwnPhysics& own) {
+  return program(made({}, own));
 }
 
 Threads threads(const Arguments& a, const Ranks& ranks) {
@@ -111,17 +120,17 @@ OutputFile::Existing existing(const Arguments& a) {
   return a.force ? OutputFile::Existing::replace : OutputFile::Existing::keep;
 }
 
-int run_deck(const Arguments& a, const Ranks& ranks) {
-  if (a.resume.empty()) return run(read_deck(a.deck, a.overrides), a, ranks);
+int run_deck(const Arguments& a, const Ranks& ranks, const OwnPhysics& own) {
+  if (a.resume.empty()) return run(read_deck(a.deck, a.overrides), a, ranks, own);
   if (is_completed(a.resume, ranks)) {
     if (ranks.first()) fmt::print("{}: the run is already at its end\n", a.resume);
     return 0;
   }
-  Resumption stopped = resumption(a.resume, version_text());
+  Resumption stopped = resumption(a.resume, version_text(own));
   if (ranks.first())
     for (const auto& w : stopped.warnings) fmt::print(stderr, "treejet: warning: {}\n", w);
   if (!a.deck.empty()) expect_same(read_deck(a.deck, a.overrides), stopped.deck);
-  return run(stopped.deck, a, ranks, &stopped.checkpoint);
+  return run(stopped.deck, a, ranks, own, &stopped.checkpoint);
 }
 
 }  // namespace treejet

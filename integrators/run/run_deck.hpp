@@ -3,12 +3,13 @@
 
 #include "core/base/output_file.hpp"
 #include "core/commands/command_line.hpp"
+#include "integrators/run/own_physics.hpp"
 #include "parallel/ranks.hpp"
 
 namespace treejet {
 
 /// Runs the deck of the arguments, or resumes the run that they name; returns the exit code of the program.
-int run_deck(const Arguments& arguments, const Ranks& ranks);
+int run_deck(const Arguments& arguments, const Ranks& ranks, const OwnPhysics& own);
 
 /// The threads of each rank; warns where they have too few cores.
 Threads threads(const Arguments& arguments, const Ranks& ranks);
@@ -17,6 +18,6 @@ Threads threads(const Arguments& arguments, const Ranks& ranks);
 OutputFile::Existing existing(const Arguments& arguments);
 
 /// "treejet 0.1.0 (...), ..., avx512 vectors"
-std::string version_text();
+std::string version_text(const OwnPhysics& own);
 
 }  // namespace treejet

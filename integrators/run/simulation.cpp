@@ -25,14 +25,16 @@ Simulation<D>::Simulation(const Deck& deck, const System<D>& system, const Setti
       time_unit_(scales(deck.parameters).time),
       jet_(system.jet),
       decomposition_(system.decomposition),
-      setting_{output_setting(setting.outputs, system.columns, setting.resumed), setting.stop_request},
+      setting_{output_setting(setting.outputs, system.columns, setting.resumed), setting.stop_request,
+               nullptr, setting.observables},
       lock_(setting.outputs.elsewhere
                 ? std::optional<DirectoryLock>()
                 : std::optional<DirectoryLock>(std::in_place, setting.outputs.directory)),
       checkpoints_(setting.outputs.elsewhere
                        ? std::nullopt
                        : std::optional<Checkpoints>({setting_.outputs.directory, setting_.outputs.existing})),
-      outputs_(deck.parameters, system.nozzle, system.collector, setting_.outputs, system.decomposition),
+      outputs_(deck.parameters, system.nozzle, system.collector, setting_.outputs, system.decomposition,
+               setting.observables),
       integration_(deck.parameters, system, outputs_.observers(), [this] { return stop_here(); }),
       march_(integration_.march) {
   if (checkpoints_ && setting_.outputs.existing == OutputFile::Existing::replace) checkpoints_->remove();

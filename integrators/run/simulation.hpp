@@ -27,6 +27,7 @@ class Simulation {
       return StopRequest::go_on;
     };                              ///< asked between any two steps
     Checkpoint* resumed = nullptr;  ///< of the same deck, to continue; null for a new run
+    OwnObservables<D> observables = {};
   };
 
   /// Opens the files; FileError if one exists already or cannot be made, or cannot be continued.
