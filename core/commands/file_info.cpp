@@ -11,7 +11,6 @@
 
 #include "core/base/error.hpp"
 #include "core/commands/command_line.hpp"
-#include "core/deck/observable_keys.hpp"
 #include "core/io/h5md.hpp"
 #include "core/io/run_record.hpp"
 #include "core/restart/checkpoint.hpp"
@@ -50,9 +49,8 @@ std::string checkpoint(const fs::path& path) {
   return text + deck_description(c.deck_name, c.deck_text, c.overrides);
 }
 
-bool is_key_with_unit(const std::string& word) {
-  const ObservableKey* known = observable_key(word.substr(0, word.find('[')));
-  return known && word == fmt::format("{}[{}]", known->key, known->unit);
+bool is_label(const std::string& word) {
+  return word.find('[') != std::string::npos && word.back() == ']';
 }
 
 /// Units hold blanks: "st[g/(cm s^2)]" is one label.
@@ -145,23 +143,39 @@ std::string xml(const fs::path& path, const std::string& kind) {
                      made_by);
 }
 
+/// What tells a text file: how its first two lines begin.
+struct Recogniser {
+  bool (*knows)(const std::string& first, const std::string& second);
+  std::string (*tells)(const fs::path& path);
+};
+
+using Line = const std::string&;
+constexpr Recogniser text_files[] = {
+    {[](Line first, Line) { return first.starts_with("{"); }, run_record_text},
+    {[](Line first, Line) { return first.starts_with("treejet checkpoint"); }, checkpoint},
+    {[](Line first, Line) {
+       if (!first.starts_with("# ")) return false;
+       const auto columns = labels(first);
+       return !columns.empty() && std::all_of(columns.begin(), columns.end(), is_label);
+     },
+     statistics},
+    {[](Line, Line second) {
+       return second.starts_with("t = ") || second.starts_with("Properties=species:S:1:pos");
+     },
+     xyz},
+    {[](Line first, Line) { return first.starts_with("frame,t[s],id,"); }, csv},
+    {[](Line, Line second) { return second.starts_with("<!DOCTYPE Xdmf"); },
+     [](const fs::path& path) { return xml(path, "XDMF"); }},
+    {[](Line first, Line second) { return first.starts_with("<?xml") && second.starts_with("<!-- treejet"); },
+     [](const fs::path& path) { return xml(path, "VTK"); }}};
+
 std::string text_file(const fs::path& path) {
   std::ifstream file(path);
-  std::string line, second, third;
-  std::getline(file, line);
+  std::string first, second;
+  std::getline(file, first);
   std::getline(file, second);
-  std::getline(file, third);
-  if (line.starts_with("{")) return run_record_text(path);
-  if (line.starts_with("treejet checkpoint")) return checkpoint(path);
-  if (line.starts_with("# ")) {
-    const auto columns = labels(line);
-    if (!columns.empty() && std::all_of(columns.begin(), columns.end(), is_key_with_unit))
-      return statistics(path);
-  }
-  if (second.starts_with("t = ") || second.starts_with("Properties=species:S:1:pos")) return xyz(path);
-  if (line.starts_with("frame,t[s],id,")) return csv(path);
-  if (second.starts_with("<!DOCTYPE Xdmf")) return xml(path, "XDMF");
-  if (line.starts_with("<?xml") && second.starts_with("<!-- treejet")) return xml(path, "VTK");
+  for (const auto& [knows, tells] : text_files)
+    if (knows(first, second)) return tells(path);
   throw FileError(fmt::format("{}: no file that treejet has written", path.string()));
 }
 

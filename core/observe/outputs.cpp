@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/io/output_files.hpp"
 #include "core/observe/accuracy_warning.hpp"
 #include "core/observe/output_hdf5.hpp"
 #include "core/observe/output_table.hpp"
@@ -45,15 +46,10 @@ bool makes_rows(const Parameters& p, const OutputSetting& setting) {
 
 /// All files are looked for before the first is made. A link that leads nowhere is there, too.
 void expect_absent(const Parameters& p, const std::filesystem::path& directory) {
-  std::vector<const char*> names;
-  if (!p.printstat_list.empty()) names.push_back("statdat.dat");
-  if (p.print_xyz) names.push_back("traj.xyz");
-  if (p.print_hdf5) names.insert(names.end(), {"traj.h5", "traj.xdmf"});
-  if (!names.empty()) names.push_back(run_record_name);
-  for (const char* name : names) {
+  for (const OutputFileKind& file : output_files(p)) {
     std::error_code error;
-    if (std::filesystem::exists(std::filesystem::symlink_status(directory / name, error)))
-      throw exists_already(directory / name);
+    if (std::filesystem::exists(std::filesystem::symlink_status(directory / file.name, error)))
+      throw exists_already(directory / file.name);
   }
 }
 

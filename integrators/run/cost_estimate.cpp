@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
-#include "core/io/frame.hpp"
+#include "core/io/output_files.hpp"
 #include "core/jet/scales.hpp"
 #include "core/observe/progress.hpp"
 
@@ -90,10 +90,6 @@ double memory_of_machine() {
   return double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
 }
 
-double samples_to(double end, double interval) {
-  return std::floor(end / interval * (1 + 1e-9)) + 1;
-}
-
 std::string bytes_text(double bytes) {
   if (bytes < 1e6) return fmt::format("{:.3g} kB", bytes / 1e3);
   return bytes < 1e9 ? fmt::format("{:.3g} MB", bytes / 1e6) : fmt::format("{:.3g} GB", bytes / 1e9);
@@ -157,30 +153,6 @@ Plan plan(const Parameters& p, const Trial& trial, bool all_pairs) {
   return plan;
 }
 
-std::vector<PlannedFile> planned_files(const Parameters& p, const Plan& plan) {
-  std::vector<PlannedFile> files;
-  const double header = 4000, points = plan.mean_beads + 1;  // a deck of ordinary length; the nozzle
-  if (!p.printstat_list.empty()) {
-    const double row = 24 * double(p.printstat_list.size()) + 1;
-    files.push_back({"statdat.dat", header + row * samples_to(p.final_time, print_interval(p))});
-  }
-  if (p.print_xyz) {
-    constexpr double line = 38, padding = 8, comment = 40;
-    const double shown = std::min(points, double(p.xyz_maxnum));
-    files.push_back({"traj.xyz", samples_to(p.final_time, *p.print_xyz) *
-                                     (comment + line * shown + padding * (p.xyz_maxnum - shown))});
-  }
-  if (p.print_hdf5) {
-    constexpr double compression = 0.46, describing = 30000, grid = 2400;
-    const auto point = static_cast<double>(bytes_of_point(frame_columns()));
-    const double frames = samples_to(p.final_time, *p.print_hdf5);
-    files.push_back({"traj.h5", describing + frames * points * point * compression});
-    files.push_back({"traj.xdmf", frames * grid});
-  }
-  if (!files.empty()) files.push_back({"run.json", header});
-  return files;
-}
-
 std::string plan_description(const Parameters& p, const Trial& trial, bool all_pairs) {
   const Plan e = plan(p, trial, all_pairs);
   const double time = scales(p).time;
@@ -196,7 +168,9 @@ std::string plan_description(const Parameters& p, const Trial& trial, bool all_p
   text += fmt::format("  time        {} on this machine, as busy as it is now\n",
                       e.seconds < 1 ? fmt::format("{:.2g} s", e.seconds) : duration_text(e.seconds));
   text += fmt::format("  memory      {}\n", bytes_text(e.memory));
-  for (const auto& f : planned_files(p, e)) text += fmt::format("  {:<12}{}\n", f.name, bytes_text(f.bytes));
+  for (const OutputFileKind& file : output_files(p))
+    text +=
+        fmt::format("  {:<12}{}\n", file.name, bytes_text(file.bytes(p, e.mean_beads + 1)));  // the nozzle
   return text;
 }
 

@@ -51,19 +51,12 @@ struct Plan {
   double memory = 0;   ///< bytes
 };
 
-struct PlannedFile {
-  const char* name;
-  double bytes;
-};
-
 /// InputError, before anything is composed, if the beads of the deck do not fit into the memory of this
 /// machine or a step of the direct sum would take hours.
 void expect_feasible_trial(const Parameters& p);
 
 /// All pairs: whether each evaluation sums over them.
 Plan plan(const Parameters& p, const Trial& trial, bool all_pairs);
-
-std::vector<PlannedFile> planned_files(const Parameters& p, const Plan& plan);
 
 /// What `treejet check` prints.
 std::string plan_description(const Parameters& p, const Trial& trial, bool all_pairs);

@@ -22,6 +22,8 @@ says whole/statdat.dat "with physics of its own: quadratic drag"
 "$stock" info whole/traj.h5 >info 2>err || { fail "info"; cat err; }
 says info "lost \[erg\]"
 says info "with physics of its own: quadratic drag"
+"$stock" info whole/statdat.dat >info 2>err || { fail "info of the table"; cat err; }
+says info "fastest\[1\]"
 "$stock" convert whole/traj.h5 --to csv --out frames.csv >out 2>err || { fail "convert"; cat err; }
 says frames.csv "lost\[erg\]"
 # the oldest bead has lost energy to the air, and more in each frame

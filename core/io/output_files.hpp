@@ -1,0 +1,25 @@
+#pragma once
+/// The files of a run, one row each: what a deck asks for them with, and how large they grow. Who makes them
+/// is core/observe/outputs.cpp, who recognises them again core/commands/file_info.cpp.
+
+#include <span>
+#include <vector>
+
+#include "core/jet/parameters.hpp"
+
+namespace treejet {
+
+struct OutputFileKind {
+  const char* name;
+  bool (*asked_for)(const Parameters& p);
+  /// Of a whole run whose frames have so many points in the mean.
+  double (*bytes)(const Parameters& p, double points);
+};
+
+/// The table; the record of the run, which stands beside any other, is its last row.
+std::span<const OutputFileKind> output_file_kinds();
+
+/// The rows that a deck asks for.
+std::vector<OutputFileKind> output_files(const Parameters& p);
+
+}  // namespace treejet
