@@ -5,7 +5,7 @@
 /// rows are shared out. Of such a table a rank sets its own rows, and `gather` gives every rank all of them;
 /// what follows is again the same everywhere, bit for bit. Only the first rank writes files, and only it is
 /// heard: the standard output of the others leads nowhere. Where a chain is held in pieces instead
-/// (forces/coulomb/distributed/tree_field_distributed.hpp), ranks write each other letters and take their
+/// (forces/coulomb/tree/essential_tree.hpp), ranks write each other letters and take their
 /// decisions from common sums.
 ///
 /// A Ranks is a value. Copies stand for the same rank; a default one is alone and sends nothing. What sends

@@ -1,14 +1,14 @@
 #pragma once
-/// The equations of motion of a chain held in pieces, one a rank (chain_pieces.hpp).
+/// The equations of motion of a chain held in pieces, one a rank (chain_decomposition.hpp).
 ///
 /// The local terms see the own beads with one neighbour on either side, which the ranks next along the chain
-/// send at each evaluation; the Coulomb field is that of DistributedSolver, the held bead and the nozzle
+/// send at each evaluation; the Coulomb field is that of CoulombSolver, the held bead and the nozzle
 /// belonging to the piece that ends there. The slopes of the oldest and the youngest bead go from their ranks
 /// to all, so that their copies stay the same bits.
 
 #include <optional>
 
-#include "forces/coulomb/distributed/solver_distributed.hpp"
+#include "forces/coulomb/solver/coulomb_solver.hpp"
 #include "forces/distributed/chain_decomposition.hpp"
 #include "forces/terms/equations_of_motion.hpp"
 
@@ -23,7 +23,7 @@ class DistributedMotion final : public RightHandSide<3> {
   /// Without it there are no charges.
   void add_coulomb(double Q, const CoulombRequest& request) {
     Q_ = Q;
-    solver_.emplace(request, pieces_.ranks());
+    solver_.emplace(request, default_isa(), TreeRanks{.subdomains = pieces_.ranks()});
   }
 
   void operator()(const Jet<3>& jet, double t, const State<3>& y, State<3>& slope) override;
@@ -41,7 +41,7 @@ class DistributedMotion final : public RightHandSide<3> {
   const ChainDecomposition& pieces_;
   Threads threads_;
   double Q_ = 0;
-  std::optional<DistributedSolver> solver_;
+  std::optional<CoulombSolver> solver_;
   Jet<3> extended_;  ///< the own beads between their neighbours
   int first_ = 0;    ///< of the own ones there
   State<3> slope_;

@@ -174,7 +174,7 @@ class Composer {
     if constexpr (D == 3)
       if (p_.coulomb != CoulombSum::direct)
         return std::make_unique<CoulombSolver>(coulomb_request(p_, /*points_move*/ true), default_isa(),
-                                               ranks_);
+                                               TreeRanks{.sharing = ranks_});
     return std::make_unique<DirectSum<D>>(reach(p_), ranks_);
   }
 

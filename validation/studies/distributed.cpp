@@ -1,5 +1,5 @@
-/// Beyond replicated data: a chain held in pieces (forces/coulomb/distributed/solver_distributed.hpp). What a
-/// rank sends, receives and holds, how accurate its field is, and a model of the time on many ranks.
+/// Beyond replicated data: a chain held in subdomains (forces/coulomb/solver/coulomb_solver.hpp). What a rank
+/// sends, receives and holds, how accurate its field is, and a model of the time on many ranks.
 
 #include <fmt/format.h>
 
@@ -33,10 +33,11 @@ struct Case {
 /// The measurement of the longest jet on one rank, which the model stands on.
 DistributedMeasurement measure_all(Report& report, const std::vector<Case>& cases) {
   const int cores = physical_cores();
-  auto table = report.table("distributed", "A chain held in pieces; numbers of a rank are the largest of any",
-                            {"chain", "points", "ranks", "error L2", "bound", "sent [kB]", "received [kB]",
-                             "partners", "cells received", "points received", "held [MB]",
-                             "process before [MB]", "process [MB]", "work x ranks / work of one", "seconds"});
+  auto table =
+      report.table("distributed", "A chain held in subdomains; numbers of a rank are the largest of any",
+                   {"chain", "points", "ranks", "error L2", "bound", "sent [kB]", "received [kB]", "partners",
+                    "cells received", "points received", "held [MB]", "process before [MB]", "process [MB]",
+                    "work x ranks / work of one", "seconds"});
   DistributedMeasurement base;
   for (const Case& c : cases) {
     DistributedMeasurement alone;
@@ -50,7 +51,7 @@ DistributedMeasurement measure_all(Report& report, const std::vector<Case>& case
                  ranks <= cores ? Cell(m.seconds) : Cell(std::nan(""))});
       const std::string what = fmt::format("{} of {} points on {} ranks", c.chain, c.points, ranks);
       report.check("error for accuracy 1e-5, " + what, m.error, 0, accuracy);
-      // an equal share and as much again for what is seen of others, which long pieces have less of
+      // an equal share and as much again for what is seen of others, which long subdomains have less of
       if (c.points / ranks >= 100'000)
         report.check("memory held against an equal share, " + what, m.held * ranks / alone.held, 0, 2);
     }
@@ -63,14 +64,14 @@ void print_model(Report& report, const DistributedMeasurement& base) {
   ScalingModel model{base.seconds / base.points, 0};
   auto table = report.table(
       "distributed_model", "MODEL, not a measurement: whipping jets of 1e6 and 1e8 points, and 1e4 a rank",
-      {"scaling", "points", "ranks", "partners", "letters [kB]", "cards [kB]", "messages", "MODEL seconds",
-       "of it points", "of it cards and letters", "of it network", "MODEL efficiency"});
+      {"scaling", "points", "ranks", "partners", "messages [kB]", "summaries [kB]", "messages",
+       "MODEL seconds", "of it points", "of it summaries and messages", "of it network", "MODEL efficiency"});
   const auto row = [&](const std::string& scaling, double points, int ranks) {
     const Volume v = ranks > 1 ? volume(jet, static_cast<int>(points), ranks, base.shape) : Volume{};
-    model.seconds_a_card = v.seconds_a_card;
+    model.seconds_a_summary = v.seconds_a_summary;
     const double seconds = model.seconds(points, ranks, v), work = model.seconds_a_point * points / ranks,
-                 looking = v.seconds_a_card * (ranks - 1);
-    table.row({scaling, points, std::int64_t{ranks}, v.partners, v.letters / 1e3, v.cards / 1e3,
+                 looking = v.seconds_a_summary * (ranks - 1);
+    table.row({scaling, points, std::int64_t{ranks}, v.partners, v.messages / 1e3, v.summaries / 1e3,
                model.messages(ranks, v), seconds, work, looking, seconds - work - looking, work / seconds});
   };
   const std::vector<int> teams =
@@ -84,12 +85,13 @@ void print_model(Report& report, const DistributedMeasurement& base) {
       "\nMODEL, with these assumptions: seconds = points of a rank x {:.3g} us (measured on one rank, one "
       "core of "
       "this machine)\n"
-      "  + other ranks x the time of looking at a card and writing a letter (measured here)\n"
+      "  + other ranks x the time of looking at a summary and writing a message (measured here)\n"
       "  + messages x {:.0f} us + bytes / {:.0f} GB/s (both assumed, a common fabric's).\n"
-      "  Cards, letters and partners are counted for the pieces in the middle and at the end of the chain.\n"
+      "  Summaries, messages and partners are counted for the subdomains in the middle and at the end of the "
+      "chain.\n"
       "  Order {}, opening {:.3g}, leaves of {} as chosen for accuracy {:g} at {} points. Left out: unequal "
       "work of "
-      "pieces,\n"
+      "subdomains,\n"
       "  contention of the network, work at cells received, all of a step but the field.\n",
       1e6 * model.seconds_a_point, 1e6 * model.latency, 1e-9 * model.bandwidth, base.shape.order,
       base.shape.opening, base.shape.leaf, accuracy, base.points);
@@ -98,8 +100,8 @@ void print_model(Report& report, const DistributedMeasurement& base) {
 }  // namespace
 
 void study_distributed(Report& report) {
-  report.section({"A chain held in pieces",
-                  "The Coulomb field of chains of which each rank holds a contiguous piece: bytes sent, "
+  report.section({"A chain held in subdomains",
+                  "The Coulomb field of chains of which each rank holds a contiguous subdomain: bytes sent, "
                   "memory held, error "
                   "against the direct sum; and a model, not a measurement, of many ranks.",
                   "treejet-validate distributed --out DIR"});

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "forces/coulomb/distributed/solver_distributed.hpp"
+#include "forces/coulomb/solver/coulomb_solver.hpp"
 
 namespace treejet {
 
@@ -103,8 +103,8 @@ DistributedMeasurement measure(const DistributedRun& run, const Ranks& ranks) {
   const PointSet own = LongChain(run.chain).points(run.points, rows);
   FieldSet field(own.size());
   const double before = peak_bytes();
-  DistributedSolver solver(
-      {.method = CoulombMethod::tree, .accuracy = run.accuracy, .measured_every = 1'000'000}, ranks);
+  CoulombSolver solver({.method = CoulombMethod::tree, .accuracy = run.accuracy, .measured_every = 1'000'000},
+                       default_isa(), {.subdomains = ranks});
   solver.field(own.view(), {0, own.size()}, field.view(), {run.threads});  // chooses the shape
   double seconds = 1e300;
   for (int k = 0; k < run.evaluations; ++k) {
@@ -118,9 +118,9 @@ DistributedMeasurement measure(const DistributedRun& run, const Ranks& ranks) {
   m.process = ranks.greatest(peak_bytes());
   m.expected = solver.report().expected_error;
   m.error = error(run.points, rows, own, field, ranks);
-  const EssentialTree::Traffic& traffic = solver.pieces().traffic();
+  const EssentialTree::Traffic& traffic = solver.tree().traffic();
   const auto most = [&](auto number) { return ranks.greatest(static_cast<double>(number)); };
-  m.seconds = most(seconds), m.before = most(before), m.held = most(solver.pieces().bytes());
+  m.seconds = most(seconds), m.before = most(before), m.held = most(solver.tree().bytes());
   m.sent = most(traffic.sent), m.received = most(traffic.received);
   m.cells = most(traffic.cells), m.grafted = most(traffic.points), m.partners = most(traffic.partners);
   m.work = solver.report().work;

@@ -1,6 +1,6 @@
 #pragma once
-/// One measured run of the field of a chain held in pieces, by the ranks it is started with; each makes its
-/// own piece and nothing more.
+/// One measured run of the field of a chain held in subdomains, by the ranks it is started with; each makes
+/// its own one and nothing more.
 
 #include <string>
 
@@ -36,7 +36,7 @@ struct DistributedMeasurement {
   double seconds = 0;              ///< of an evaluation, exchanges included; the least
   double error = 0, expected = 0;  ///< relative L2: at other points than the program's own; its bound
   double sent = 0, received = 0;   ///< bytes of an evaluation
-  double cells = 0, grafted = 0, partners = 0;  ///< cells and points received; ranks that wrote letters
+  double cells = 0, grafted = 0, partners = 0;  ///< cells and points received; ranks that sent messages
   double held = 0, before = 0,
          process = 0;  ///< bytes: structures; most the process ever had, before and after
   double work = 0;     ///< of the busiest rank, in direct pairs

@@ -37,7 +37,7 @@ Times timed(const FieldCommand& command, const PointTable& points, CoulombSolver
   Times best;
   const double first = seconds([&] { solver.field(points.view(), all, field, threads); });
   const CoulombReport& report = solver.report();
-  TreeField tree(default_isa(), command.ranks);
+  TreeField tree(default_isa(), {.sharing = command.ranks});
   best.evaluate = std::numeric_limits<double>::infinity();
   for (int k = 0; k < std::max(1, command.repeat); ++k) {
     Times once;
@@ -116,7 +116,7 @@ void run(const FieldCommand& command, std::ostream& report) {
   std::vector<double> E[3];
   for (auto& values : E) values.resize(points.q.size());
   const FieldArrays<3> field = {E[0].data(), E[1].data(), E[2].data()};
-  CoulombSolver solver(command.request, default_isa(), command.ranks);
+  CoulombSolver solver(command.request, default_isa(), {.sharing = command.ranks});
   const Times times = timed(command, points, solver, field);
 
   FieldError error;

@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "core/base/tree_parameters.hpp"
+#include "forces/coulomb/solver/sample.hpp"
+
 namespace treejet {
 
 namespace {
 
-constexpr double margin = 1.25;
 /// Below this accuracy a near field in single precision is not tried.
 constexpr double finest_single = 3e-5;
+constexpr double widest_opening = 0.8, narrowest_opening = 0.05, opening_step = 0.93;
+/// A leaf. Of subdomains of a few points a tree is no cheaper than the direct sum, and one that moves and
+/// grows by a bead errs by many times the accuracy before it is measured again.
+constexpr int least_points_of_a_rank = 32;
 
 TunedShape direct_because(const std::string& reason) {
   TunedShape choice;
@@ -25,78 +29,6 @@ TunedShape direct_because(const std::string& reason) {
 /// Measured on jets and coils.
 int usual_order(double accuracy) {
   return std::clamp(static_cast<int>(std::lround(-1.35 * std::log10(accuracy))), 3, 13);
-}
-
-double typical_square(const std::array<std::span<const double>, 3>& E) {
-  std::vector<double> squares;
-  for (std::size_t i = 0; i < E[0].size(); ++i) {
-    const double square = E[0][i] * E[0][i] + E[1][i] * E[1][i] + E[2][i] * E[2][i];
-    if (std::isfinite(square)) squares.push_back(square);
-  }
-  if (squares.empty()) return 0;
-  const auto typical = squares.end() - static_cast<std::ptrdiff_t>(squares.size() / 100);
-  std::nth_element(squares.begin(), typical, squares.end());
-  return std::accumulate(squares.begin(), typical, 0.0) / static_cast<double>(squares.size());
-}
-
-std::vector<int> sample_leaves(int all, int count) {
-  std::vector<int> sample;
-  for (int k = 0; k < count; ++k) {
-    const double jitter = 0.618033988749895 * k;  // golden ratio: no stride of the jet can be in step with it
-    const int leaf = static_cast<int>((k + jitter - static_cast<int>(jitter)) * all / count);
-    if (sample.empty() || sample.back() != leaf) sample.push_back(leaf);
-  }
-  return sample;
-}
-
-void LeafErrors::add(std::span<const double> squares) {
-  double square = 0;
-  for (double s : squares) {
-    if (!std::isfinite(s)) continue;
-    square += s / static_cast<double>(squares.size());
-    largest = std::max(largest, s);
-  }
-  sum += square;
-  sum_squares += square * square;
-  ++leaves;
-}
-
-SampledError LeafErrors::relative_to(double mean_square) const {
-  if (mean_square == 0 || leaves == 0) return {};
-  const double mean = sum / leaves;
-  const double spread = std::sqrt(std::max(0.0, sum_squares / leaves - mean * mean) / leaves);
-  return {std::sqrt(mean / mean_square), std::sqrt(largest / mean_square),
-          margin * std::sqrt((mean + 2 * spread) / mean_square)};
-}
-
-CoulombSample::CoulombSample(int points, TreeField& tree, Threads threads)
-    : n_(points), leaves_(sample_leaves(tree.leaves(), sampled_points(points) / tree.shape().leaf)) {
-  for (auto& values : direct_) values.assign(static_cast<std::size_t>(n_), 0.0);
-  for (auto& values : tried_) values.assign(static_cast<std::size_t>(n_), 0.0);
-  const FieldArrays<3> field = {direct_[0].data(), direct_[1].data(), direct_[2].data()};
-
-  // The size of the whole field, from the tree itself: it need not be exact.
-  tree.evaluate(tree.leaves_of({0, n_}), {0, n_}, field, threads);
-  mean_square_ = typical_square({direct_[0], direct_[1], direct_[2]});
-  for (int leaf : leaves_) points_of_leaf_.push_back(tree.points_of(leaf));
-  tree.evaluate_directly(leaves_, field, threads);
-}
-
-SampledError CoulombSample::error(TreeField& tree, Threads threads) {
-  tree.evaluate(leaves_, {0, n_}, {tried_[0].data(), tried_[1].data(), tried_[2].data()}, threads);
-  LeafErrors errors;
-  std::vector<double> squares;
-  for (const auto& points : points_of_leaf_) {
-    squares.clear();
-    for (int k : points) {
-      const auto i = static_cast<std::size_t>(k);
-      double difference2 = 0;
-      for (std::size_t e = 0; e < 3; ++e) difference2 += std::pow(tried_[e][i] - direct_[e][i], 2);
-      squares.push_back(difference2);
-    }
-    errors.add(squares);
-  }
-  return errors.relative_to(mean_square_);
 }
 
 double cost(const Interactions& work, const TreeShape& shape, int points, Isa isa) {
@@ -123,10 +55,18 @@ int direct_below(double accuracy, Isa isa) {
 
 namespace {
 
+/// The price of this work, of the rank that has most of it.
+double greatest_cost(const Interactions& work, const TreeField& tree) {
+  return tree.ranks().subdomains.greatest(cost(work, tree.shape(), tree.points(), tree.isa()));
+}
+
 /// Chain or space: the order of points with the least work at this shape, with one opening for all cells:
-/// evened out it goes by the mean leaf, which is another in each order.
-TreeShape cheapest_order(const PointCharges<3>& points, const CoulombRequest& request, TreeShape shape,
-                         Isa isa, TreeField& tree, Threads threads) {
+/// evened out it goes by the mean leaf, which is another in each order. Long subdomains are looked at each by
+/// itself: in an order that suits the chain ill, they would show each other nearly all they hold.
+TreeShape cheapest_order(const PointCharges<3>& points, int all, const CoulombRequest& request,
+                         TreeShape shape, TreeField& tree, Threads threads) {
+  constexpr double long_subdomain = 4096;
+  const bool alone = !tree.in_subdomains() || all >= long_subdomain * tree.ranks().subdomains.size();
   TreeShape tried = shape;
   tried.even = false;
   double least = std::numeric_limits<double>::infinity();
@@ -134,7 +74,8 @@ TreeShape cheapest_order(const PointCharges<3>& points, const CoulombRequest& re
     if (request.space && *request.space != (block > 0)) continue;
     tried.block = block;
     tree.place(points, tried, threads);
-    const double work = cost(tree.count(), tried, points.n, isa);
+    if (!alone) tree.expand(threads);
+    const double work = greatest_cost(tree.count(), tree);
     if (work < least) {
       least = work;
       shape.block = block;
@@ -147,85 +88,98 @@ TreeShape cheapest_order(const PointCharges<3>& points, const CoulombRequest& re
 struct Search {
   const PointCharges<3>& points;
   const CoulombRequest& request;
-  Isa isa;
   TreeField& tree;
   Threads threads;
   TunedShape best{};
 
   /// The widest opening that is accurate enough at each of these orders, from a bit wider than `widest` down.
-  void try_orders(const TreeShape& shape, std::initializer_list<int> orders, double widest) {
+  void try_orders(const TreeShape& shape, std::span<const int> orders, double widest) {
     tree.arrange(points, shape, threads);
-    CoulombSample sample(points.n, tree, threads);
+    const CoulombSample sample(tree, threads);
     for (int order : orders)
       if (tree_parameters::is_order(order)) try_openings(order, sample, widest);
   }
 
-  void try_openings(int order, CoulombSample& sample, double widest) {
-    for (double opening = request.opening.value_or(widest); opening > narrowest_opening;
-         opening *= opening_step) {
+  void try_openings(int order, const CoulombSample& sample, double widest) {
+    // in subdomains an opening much narrower than that of a shape already found would cost more than the
+    // order saves, and show every rank much of the others
+    const double narrowest =
+        tree.in_subdomains() && !best.direct ? 0.6 * best.shape.opening : narrowest_opening;
+    const bool pinned = request.opening.has_value();
+    for (double opening = request.opening.value_or(widest); opening > narrowest; opening *= opening_step) {
       tree.reshape(order, opening, threads);
       const SampledError error = sample.error(tree, threads);
-      const bool pinned = request.opening.has_value();
-      if (error.bound <= request.accuracy || (pinned && request.order)) {
-        const Interactions counted = tree.count();
-        if (counted.expansions == 0 && !pinned) return;  // all pairs are near: a direct sum in disguise
-        const double work = cost(counted, tree.shape(), points.n, isa);
-        if (work < best.work) best = {false, {}, tree.shape(), error, work};
-        return;
-      }
+      if (error.bound <= request.accuracy || (pinned && request.order)) return consider(error);
       if (pinned) return;
     }
   }
+
+  void consider(const SampledError& error) {
+    // if all pairs are near this is a direct sum in disguise, whose error tells nothing of the shape
+    const Interactions counted = tree.count();
+    const bool far = tree.ranks().subdomains.greatest(counted.expansions > 0 ? 1 : 0) > 0;
+    if (!far && !request.opening) return;
+    const double work = greatest_cost(counted, tree);
+    if (work < best.work) best = {false, {}, tree.shape(), error, work};
+  }
 };
+
+/// The order of expansion about the usual one, and what goes beyond the plain tree: near fields in single
+/// precision and other leaves, which subdomains do without.
+void search_all(Search& search, TreeShape shape) {
+  const CoulombRequest& request = search.request;
+  const bool whole = !search.tree.in_subdomains();
+  const int usual = shape.order;
+  std::vector<int> orders = {usual, usual + 1, usual - 1, usual + 2};
+  if (!whole) orders.pop_back();
+  if (request.order) orders = {usual};
+  for (bool single : {true, false}) {
+    // points that move may come to share a leaf with some far off, on whose scale they are one in single
+    // precision; on a chain they do not
+    if (single && (!whole || request.accuracy < finest_single || (request.points_move && shape.block > 0)))
+      continue;
+    shape.single = single;
+    search.try_orders(shape, orders, widest_opening);
+  }
+  if (request.leaf || search.best.direct || !whole) return;
+  const TreeShape found = search.best.shape;
+  for (int leaf : {16, 64}) {
+    shape = found;
+    shape.leaf = leaf;
+    search.try_orders(shape, {&found.order, 1}, std::min(widest_opening, found.opening * 1.3));
+  }
+}
 
 }  // namespace
 
-TunedShape tuned_shape(const PointCharges<3>& points, const CoulombRequest& request, Isa isa, TreeField& tree,
+TunedShape tuned_shape(const PointCharges<3>& points, int all, const CoulombRequest& request, TreeField& tree,
                        Threads threads) {
   const bool automatic = request.method == CoulombMethod::automatic;
-  if (automatic && points.n < direct_below(request.accuracy, isa))
+  const int ranks = tree.ranks().subdomains.size();
+  if (automatic && all < direct_below(request.accuracy, tree.isa()))
     return direct_because("fewer points than the crossover of the table");
+  if (tree.in_subdomains() && all < least_points_of_a_rank * ranks)
+    return direct_because("too few points for every rank to have a leaf");
 
   TreeShape shape;
-  shape.local = request.local_expansions;
+  shape.local = request.local_expansions || tree.in_subdomains();
   shape.order = request.order.value_or(usual_order(request.accuracy));
   shape.opening = request.opening.value_or(0.4);
   shape.even = shape.local && !request.opening;
   shape.leaf = request.leaf.value_or(32);
-  shape = cheapest_order(points, request, shape, isa, tree, threads);
-
-  Search search{points, request, isa, tree, threads};
-  const int usual = shape.order;
-  for (bool single : {true, false}) {
-    // points that move may come to share a leaf with some far off, on whose scale they are one in single
-    // precision; on a chain they do not
-    if (single && (request.accuracy < finest_single || (request.points_move && shape.block > 0))) continue;
-    shape.single = single;
-    if (request.order)
-      search.try_orders(shape, {usual}, widest_opening);
-    else
-      search.try_orders(shape, {usual, usual + 1, usual - 1, usual + 2}, widest_opening);
-  }
-  if (!request.leaf && !search.best.direct) {
-    const TreeShape found = search.best.shape;
-    for (int leaf : {16, 64}) {
-      shape = found;
-      shape.leaf = leaf;
-      search.try_orders(shape, {found.order}, std::min(widest_opening, found.opening * 1.3));
-    }
-  }
+  Search search{points, request, tree, threads};
+  search_all(search, cheapest_order(points, all, request, shape, tree, threads));
 
   TunedShape& choice = search.best;
   if (choice.direct) {
     choice.reason = "no tree is as accurate as asked for";
-  } else if (automatic && search.best.work > 0.9 * static_cast<double>(points.n) * points.n) {
+  } else if (automatic && choice.work > 0.9 * static_cast<double>(all) * all / ranks) {
     choice.direct = true;
     choice.error = {};
     choice.reason = "no tree of this accuracy would be faster";
   } else {
     choice.reason = choice.error.bound <= request.accuracy ? "cheapest accurate shape"
                                                            : "pinned: less accurate than asked for";
-    tree.arrange(points, choice.shape, threads);
   }
   return choice;
 }

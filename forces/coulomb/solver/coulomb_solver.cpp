@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/base/tree_parameters.hpp"
 #include "forces/coulomb/solver/autotune.hpp"
+#include "forces/coulomb/solver/sample.hpp"
 #include "parallel/share_rows.hpp"
 
 namespace treejet {
@@ -44,6 +45,20 @@ int repair_coincident(const PointCharges<3>& points, Rows rows, const FieldArray
   return coincident;
 }
 
+void require_finite(const Ranks& subdomains, Rows rows, const FieldArrays<3>& field) {
+  bool finite = true;
+  for (int i = rows.first; i < rows.last; ++i)
+    finite = finite && std::isfinite(field[0][i] + field[1][i] + field[2][i]);
+  if (subdomains.greatest(finite ? 0 : 1) > 0)
+    throw NumericalError("two points are at one place, or a coordinate is not finite");
+}
+
+/// A direct sum of subdomains: all pairs are near whatever the order; the moments, which nobody asks for, are
+/// short.
+TreeShape all_pairs() {
+  return {.order = 2, .opening = 0, .leaf = 32, .block = 0, .single = false, .local = true, .even = true};
+}
+
 }  // namespace
 
 void require_valid(const CoulombRequest& request) {
@@ -57,18 +72,19 @@ void require_valid(const CoulombRequest& request) {
   require(!request.leaf || is_leaf(*request.leaf), "leaf", leaf_sizes);
 }
 
-CoulombSolver::CoulombSolver(const CoulombRequest& request, Isa isa, const Ranks& ranks)
+CoulombSolver::CoulombSolver(const CoulombRequest& request, Isa isa, const TreeRanks& ranks)
     : request_(request), isa_(isa), ranks_(ranks), tree_(isa, ranks), policy_(request.measured_every) {
   require_valid(request);
   report_.error.asked = request.accuracy;
+  if (request.method == CoulombMethod::direct) report_.error.method = description(report_);
 }
 
 void CoulombSolver::field(const PointCharges<3>& points, Rows rows, const FieldArrays<3>& field,
                           Threads threads, double* potential) {
-  decide(points, threads);
-  if (report_.direct) {
+  const bool by_tree = decide(points, threads);
+  if (!by_tree) {
     const std::array<double*, 4> columns = {field[0], field[1], field[2], potential};
-    share_rows(ranks_, threads, rows, direct_block, std::span(columns).first(potential ? 4 : 3),
+    share_rows(ranks_.sharing, threads, rows, direct_block, std::span(columns).first(potential ? 4 : 3),
                [&](Rows block) {
                  if (potential)
                    coulomb_direct_with_potential(points, block, field, potential, isa_);
@@ -79,23 +95,36 @@ void CoulombSolver::field(const PointCharges<3>& points, Rows rows, const FieldA
   } else {
     report_.interactions = tree_.evaluate(tree_.leaves_of(rows), rows, field, threads, potential);
   }
-  report_.coincident = repair_coincident(points, rows, field, potential);
+  if (tree_.in_subdomains())
+    require_finite(ranks_.subdomains, rows, field);
+  else
+    report_.coincident = repair_coincident(points, rows, field, potential);
 }
 
-/// Leaves the tree arranged for these points, or `report_.direct` set.
-void CoulombSolver::decide(const PointCharges<3>& points, Threads threads) {
-  if (request_.method == CoulombMethod::direct || points.n < 2) return;
-  const int n = points.n;
-  if (policy_.tuning_due(n, report_.direct)) return choose(points, threads);
-  if (report_.direct) return;
-  const auto due = policy_.at_evaluation(n, report_.work, double(sampled_points(n)) * n);
-  tree_.arrange(points, report_.shape, threads, /*keep_order*/ !due.sort);
-  if (due.measurement && !keeps(points, threads)) choose(points, threads);
+/// Whether the tree, now arranged for these points, is to sum.
+bool CoulombSolver::decide(const PointCharges<3>& points, Threads threads) {
+  double sums[] = {double(points.n), policy_.recut(points.n) ? 1.0 : 0.0};
+  ranks_.subdomains.sum(sums);
+  const int all = static_cast<int>(sums[0]);
+  if (request_.method != CoulombMethod::direct && all >= 2) {
+    if (policy_.tuning_due(all, report_.direct)) {
+      choose(points, all, threads);
+    } else if (!report_.direct) {
+      const double pairs =
+          double(sampled_points(all, tree_.in_subdomains())) * all / ranks_.subdomains.size();
+      const auto due = policy_.at_evaluation(all, report_.work, pairs, sums[1] > 0);
+      tree_.arrange(points, report_.shape, threads, /*keep_order*/ !due.sort);
+      if (due.measurement && !keeps(points, all, threads)) choose(points, all, threads);
+    }
+  }
+  if (!report_.direct && all >= 2) return true;
+  if (tree_.in_subdomains()) tree_.arrange(points, all_pairs(), threads);
+  return tree_.in_subdomains();
 }
 
-bool CoulombSolver::keeps(const PointCharges<3>& points, Threads threads) {
-  CoulombSample sample(points.n, tree_, threads);
-  policy_.measured(points.n);
+bool CoulombSolver::keeps(const PointCharges<3>& points, int all, Threads threads) {
+  const CoulombSample sample(tree_, threads);
+  policy_.measured(all, points.n);
   return keeps_accuracy(
       report_, request_, [&] { return sample.error(tree_, threads); },
       [&](double opening) { tree_.reshape(report_.shape.order, opening, threads); });
@@ -111,8 +140,8 @@ void CoulombReport::record(const SampledError& sampled) {
   error.missed += error.l2 > error.asked;
 }
 
-void CoulombSolver::choose(const PointCharges<3>& points, Threads threads) {
-  const TunedShape choice = tuned_shape(points, request_, isa_, tree_, threads);
+void CoulombSolver::choose(const PointCharges<3>& points, int all, Threads threads) {
+  const TunedShape choice = tuned_shape(points, all, request_, tree_, threads);
   report_.direct = choice.direct;
   report_.reason = choice.reason;
   report_.shape = choice.shape;
@@ -121,8 +150,11 @@ void CoulombSolver::choose(const PointCharges<3>& points, Threads threads) {
   if (!choice.direct) report_.record(choice.error);
   report_.error.method = description(report_);
   ++report_.error.choices;
-  policy_.chosen(points.n);
-  if (!choice.direct && request_.points_move) keeps(points, threads);
+  policy_.chosen(all, points.n);
+  tree_ = TreeField(isa_, ranks_);  // what was seen at other shapes may have taken more room
+  if (choice.direct) return;
+  tree_.arrange(points, choice.shape, threads);
+  if (request_.points_move) keeps(points, all, threads);
 }
 
 std::string description(const CoulombReport& report) {

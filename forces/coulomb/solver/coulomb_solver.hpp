@@ -19,9 +19,15 @@
 /// the report says so.
 ///
 /// All decisions follow from the points, the count of evaluations and counted work, never from a clock: the
-/// same calls give the same bits on any number of threads and ranks.
+/// same calls give the same bits on any number of threads and of ranks that share the sum.
 ///
-/// Two points at one place: the pair is left out of both fields, and counted in the report.
+/// Ranks may hold a subdomain of the points each (TreeRanks): then `points` are those of the rank, accuracy
+/// and error go by all of them, and all ranks learn the same figures and take the same decisions. The error
+/// is measured anew also when the subdomains are other ones. A direct sum sends all points to every rank.
+/// Left out: near fields in single precision, Barnes-Hut, potentials.
+///
+/// Two points at one place: the pair is left out of both fields, and counted in the report. In subdomains it
+/// is a NumericalError, on all ranks, as is a coordinate that is not finite.
 
 #include <optional>
 #include <string>
@@ -81,28 +87,31 @@ bool keeps_accuracy(CoulombReport& report, const CoulombRequest& request, Measur
 class CoulombSolver final : public FieldSolver<3> {
  public:
   /// InputError for a request that is not valid.
-  explicit CoulombSolver(const CoulombRequest& request, Isa isa = default_isa(), const Ranks& ranks = {});
+  explicit CoulombSolver(const CoulombRequest& request, Isa isa = default_isa(), const TreeRanks& ranks = {});
 
+  /// In subdomains `rows` are all points of one.
   void field(const PointCharges<3>& points, Rows rows, const FieldArrays<3>& field,
              Threads threads) override {
     this->field(points, rows, field, threads, nullptr);
   }
-  /// The field, and the potential if there is a place for it: the same on all ranks.
+  /// The field, and the potential if there is a place for it.
   void field(const PointCharges<3>& points, Rows rows, const FieldArrays<3>& field, Threads threads,
              double* potential);
 
+  /// In subdomains its interactions are those of this rank, its work that of the rank with the most.
   const CoulombReport& report() const override { return report_; }
+  const TreeField& tree() const { return tree_; }
 
   void visit(Archive& state) override { state(tree_, report_, policy_); }
 
  private:
-  void decide(const PointCharges<3>& points, Threads threads);
-  void choose(const PointCharges<3>& points, Threads threads);
-  bool keeps(const PointCharges<3>& points, Threads threads);
+  bool decide(const PointCharges<3>& points, Threads threads);
+  void choose(const PointCharges<3>& points, int all, Threads threads);
+  bool keeps(const PointCharges<3>& points, int all, Threads threads);
 
   CoulombRequest request_;
   Isa isa_;
-  Ranks ranks_;
+  TreeRanks ranks_;
   TreeField tree_;
   CoulombReport report_;
   RebuildPolicy policy_;

@@ -1,7 +1,7 @@
 #pragma once
 /// Whoever computes the Coulomb field of point charges at the points themselves: directly (direct_sum.hpp),
-/// by a tree that every rank holds whole (coulomb_solver.hpp), or by one whose subdomains the ranks hold
-/// (distributed/solver_distributed.hpp). Another fast sum is another class behind this interface.
+/// or by a tree that every rank holds whole or a subdomain of (coulomb_solver.hpp). Another fast sum is
+/// another class behind this interface.
 ///
 /// All ranks call `field`, which may decide anew how to compute, from counts and never from a clock. `report`
 /// tells what was decided and how well the field is known; `visit` carries what the next decisions are made

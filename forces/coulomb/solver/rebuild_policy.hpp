@@ -39,19 +39,30 @@ class RebuildPolicy {
     return {measurement, sort};
   }
 
-  void chosen(int n) {
-    chosen_for_ = measured_for_ = n;
-    since_measurement_ = since_sort_ = 0;
+  /// `own` of the n points are this rank's.
+  void chosen(int n, int own) {
+    measured(n, own);
+    chosen_for_ = n;
+    since_sort_ = 0;
   }
 
-  void measured(int n) {
+  void measured(int n, int own) {
     measured_for_ = n;
+    own_measured_for_ = own;
     since_measurement_ = 0;
+  }
+
+  /// Whether this rank's part of the points has become another one, whose leaves stand elsewhere.
+  bool recut(int own) const {
+    constexpr int few = 4;
+    return std::abs(own - own_measured_for_) > few && differs_by(0.1, own, own_measured_for_);
   }
 
   static bool differs_by(double part, int n, int before) { return std::abs(n - before) > part * before; }
 
-  void visit(Archive& state) { state(chosen_for_, measured_for_, since_measurement_, since_sort_); }
+  void visit(Archive& state) {
+    state(chosen_for_, measured_for_, own_measured_for_, since_measurement_, since_sort_);
+  }
 
  private:
   /// Evaluations between two measurements: one takes an evaluation of all points and the sample's direct
@@ -63,7 +74,7 @@ class RebuildPolicy {
   }
 
   std::optional<int> measured_every_;
-  int chosen_for_ = 0, measured_for_ = 0;  ///< points
+  int chosen_for_ = 0, measured_for_ = 0, own_measured_for_ = 0;  ///< points
   int since_measurement_ = 0, since_sort_ = 0;
 };
 

@@ -16,10 +16,65 @@ Cells::Cells(int points, int leaf) : points_(points), leaf_(leaf) {
     first_.push_back(first_.back() + *count);
   for (auto* values : {&centre_[0], &centre_[1], &centre_[2], &radius_, &critical_, &spread_, &weight_})
     values->resize(index(size()));
+  for (int l = 0; l + 1 < levels(); ++l) {
+    const CellRange next = level(l + 1);
+    for (int child = next.first; child < next.last; child += 2)
+      opened_.push_back({child, std::min(child + 2, next.last)});
+  }
+  for (int cell = level(levels() - 1).first; cell < size(); ++cell) opened_.push_back({cell, cell + 1});
+  if (points > 0) roots_ = {0};
 }
 
 Rows Cells::leaf_points(int k) const {
   return {k * leaf_, std::min(points_, (k + 1) * leaf_)};
+}
+
+Rows Cells::points_of(int cell) const {
+  if (cell >= size()) return grafted_points_[index(cell - size())];
+  return leaf_points(cell - first_[index(levels() - 1)]);
+}
+
+void Cells::reserve(std::size_t cells) {
+  for (auto* values : {&centre_[0], &centre_[1], &centre_[2], &radius_, &critical_}) values->reserve(cells);
+  opened_.reserve(cells);
+  grafted_points_.reserve(cells - index(size()));
+}
+
+void Cells::resize(std::size_t cells) {
+  for (auto* values : {&centre_[0], &centre_[1], &centre_[2], &radius_, &critical_}) values->resize(cells);
+  opened_.resize(cells);
+  grafted_points_.resize(cells - index(size()));
+}
+
+int Cells::add(int count) {
+  const int first = all();
+  resize(index(first + count));
+  return first;
+}
+
+int Cells::add_root() {
+  return roots_.emplace_back(add(1));
+}
+
+void Cells::set(int cell, const Grafted& grafted) {
+  const std::size_t k = index(cell);
+  for (int e = 0; e < 3; ++e) centre_[e][k] = grafted.centre[e];
+  radius_[k] = grafted.radius;
+  critical_[k] = grafted.critical_radius;
+  const bool closed = grafted.children.first == grafted.children.last;
+  opened_[k] = closed ? CellRange{cell, cell + 1} : grafted.children;
+  grafted_points_[k - index(size())] = grafted.points;
+}
+
+void Cells::prune() {
+  resize(index(size()));
+  roots_.resize(points_ > 0 ? 1 : 0);
+}
+
+std::int64_t Cells::bytes() const {
+  const std::size_t numbers = 5 * radius_.capacity() + spread_.capacity() + weight_.capacity();
+  return static_cast<std::int64_t>(numbers * sizeof(double) + opened_.capacity() * sizeof(CellRange) +
+                                   grafted_points_.capacity() * sizeof(Rows));
 }
 
 void Cells::enclose(const CellPoints& points, Reach reach, Threads threads) {

@@ -8,6 +8,8 @@
 ///
 /// Cells of all levels stand in one array, level after level. Each has a centre, the centre of |charge| of
 /// its points (their mean where all charges vanish), and the radius r of a ball about it that holds them.
+/// Behind these own cells stand those grafted from the subdomains of other ranks (essential_tree.hpp), in
+/// trees of their own: a grafted cell need not show its children, and its leaves stand on any level.
 ///
 /// Beside it stands a critical radius R, by which cells are told to be far from one another: A and B are if
 ///
@@ -15,7 +17,7 @@
 ///
 /// With R = r that is the usual opening. But an expansion of order p about a cell of charge Q and radius r
 /// errs, in the field of a like cell at the ratio u = 2 r / |c_A - c_B|, by about Q / (2r)^2 u^(p+2): much
-/// more where points crowd than where they are strewn. `even_out` makes all cells err alike:
+/// more where points crowd than where they are strewn. `equalise_errors` makes all cells err alike:
 ///
 ///     R = r / u,   u^(p+2) = ((2r)^2 / Q) / (its geometric mean over the leaves) ,
 ///
@@ -23,6 +25,7 @@
 /// Source: Dehnen, J. Comput. Phys. 179 (2002) 27, where for the same reason the opening depends on the mass
 /// of a cell.
 
+#include <cstdint>
 #include <vector>
 
 #include "forces/coulomb/simd/layout.hpp"
@@ -39,11 +42,20 @@ class Cells {
   int leaf() const { return leaf_; }
   int levels() const { return static_cast<int>(first_.size()) - 1; }
   int size() const { return first_.back(); }
+  /// With the grafted ones.
+  int all() const { return static_cast<int>(opened_.size()); }
   /// The cells of a level.
   CellRange level(int l) const { return {first_[index(l)], first_[index(l + 1)]}; }
   int leaves() const { return size() - first_[index(levels() - 1)]; }
   /// The points of leaf k.
   Rows leaf_points(int k) const;
+  /// The points of a cell that is a leaf, own or grafted; none of a grafted cell that shows no points.
+  Rows points_of(int cell) const;
+  /// What takes the place of a cell that is opened: its children, or itself if it shows none.
+  CellRange opened(int cell) const { return opened_[index(cell)]; }
+  bool opens(int cell) const { return opened_[index(cell)].first != cell; }
+  /// The own root, if there are points, and that of each grafted tree.
+  const std::vector<int>& roots() const { return roots_; }
 
   const double* centre(int e) const { return centre_[e].data(); }
   const double* radius() const { return radius_.data(); }
@@ -63,14 +75,33 @@ class Cells {
   /// Critical radii by which expansions of this order err alike, among leaves of that spread.
   void equalise_errors(int order, double opening, const Spread& among, Threads threads);
 
+  struct Grafted {
+    double centre[3];
+    double radius, critical_radius;
+    CellRange children;  ///< empty: it shows none
+    Rows points;
+  };
+  void reserve(std::size_t cells);
+  /// Room for grafted cells, to be set; the number of the first one.
+  int add(int count);
+  int add_root();
+  void set(int cell, const Grafted& grafted);
+  /// Only the own cells stay.
+  void prune();
+  std::int64_t bytes() const;  ///< held
+
  private:
   void weigh(const CellPoints& points, int leaf);
   void weigh_children(int level, int cell);
+  void resize(std::size_t cells);
   void measure(const CellPoints& points, Reach reach, int level, int cell);
 
   int points_ = 0, leaf_ = 0;
-  std::vector<int> first_;  ///< of each level, and the end
+  std::vector<int> first_ = {0, 0};  ///< of each level, and the end
   std::vector<double> centre_[3], radius_, critical_, spread_, weight_;
+  std::vector<CellRange> opened_;
+  std::vector<int> roots_;
+  std::vector<Rows> grafted_points_;
 };
 
 }  // namespace treejet

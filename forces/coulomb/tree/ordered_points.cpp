@@ -7,6 +7,7 @@ namespace treejet {
 
 void OrderedPoints::read(const PointCharges<3>& points, Threads threads) {
   const auto n = static_cast<std::size_t>(points.n);
+  size_ = points.n;
   for (auto* values : {&r_[0], &r_[1], &r_[2], &q_, &sum_[0], &sum_[1], &sum_[2]}) values->resize(n);
   for_each_block(threads, {0, points.n}, 4096, [&](Rows rows) {
     for (int k = rows.first; k < rows.last; ++k) {

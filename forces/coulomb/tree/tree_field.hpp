@@ -9,86 +9,95 @@
 /// point (P2P). The shape without local expansions is barnes_hut.hpp. A target cell's sums depend on the
 /// points and the shape only, not on which other targets are wanted or who computes them: one thread does, in
 /// one order. Source: Dehnen, J. Comput. Phys. 179 (2002) 27.
+///
+/// Ranks work together in one of two ways (TreeRanks). Either each holds all points and computes the leaves
+/// of its share: the bits are those of one rank. Or each holds a subdomain and computes the field at its own
+/// points, beside its own tree standing what it needs of the others (essential_tree.hpp): same condition for
+/// far cells, same order of expansion, hence the same accuracy, but bits that depend on the subdomains. A
+/// subdomain may be empty. One rank is the case of either in which there are no others.
 
 #include <span>
 #include <vector>
 
 #include "core/base/archive.hpp"
-#include "forces/coulomb/simd/kernels.hpp"
-#include "forces/coulomb/tree/cells.hpp"
+#include "forces/coulomb/tree/essential_tree.hpp"
 #include "forces/coulomb/tree/interactions.hpp"
-#include "forces/coulomb/tree/ordered_points.hpp"
+#include "forces/coulomb/tree/tree.hpp"
 #include "parallel/ranks.hpp"
 
 namespace treejet {
 
-struct TreeShape {
-  int order = 6;         ///< p of multipole.hpp, 2 to 14
-  double opening = 0.4;  ///< cells.hpp
-  int leaf = 32;         ///< points of a leaf, a multiple of 16
-  int block = 0;         ///< 0: the order of the chain; else space_order by blocks of that many points
-  bool single = false;   ///< near field in single precision
-  bool local = true;     ///< local expansions; false: Barnes-Hut
-  bool even = true;      ///< all cells err alike (cells.hpp); false, and Barnes-Hut: the opening as it is
+/// Ranks that hold all points alike and share out the leaves, or ranks that hold a subdomain each.
+struct TreeRanks {
+  Ranks sharing = {}, subdomains = {};
 };
 
 class TreeField {
  public:
-  explicit TreeField(Isa isa = default_isa(), const Ranks& ranks = {})
-      : kernels_(&wide_kernels(isa)), ranks_(ranks) {}
+  explicit TreeField(Isa isa = default_isa(), const TreeRanks& ranks = {})
+      : isa_(isa), kernels_(&wide_kernels(isa)), ranks_(ranks), others_(ranks.subdomains) {}
 
   /// With `keep_order` the order found last time serves again, if the number of points and the shape allow
-  /// it: right for any points, best while they hardly move.
+  /// it: right for any points, best while they hardly move. Called by all ranks, as are its parts and
+  /// `reshape`.
   void arrange(const PointCharges<3>& points, const TreeShape& shape, Threads threads,
                bool keep_order = false) {
     place(points, shape, threads, keep_order);
     expand(threads);
   }
-  /// Its two parts: points and cells, which is all that `count` needs, and moments.
+  /// Its two parts: the own points and cells, which are all that `count` needs, though in subdomains it then
+  /// sees nothing of the others; moments, and what is seen of the others.
   void place(const PointCharges<3>& points, const TreeShape& shape, Threads threads, bool keep_order = false);
   void expand(Threads threads);
   /// The same points, another order or opening.
   void reshape(int order, double opening, Threads threads);
 
-  int leaves() const { return cells_.leaves(); }
+  Isa isa() const { return isa_; }
+  const TreeRanks& ranks() const { return ranks_; }
+  bool in_subdomains() const { return ranks_.subdomains.size() > 1; }
+  const TreeShape& shape() const { return shape_; }
+  const Tree& tree() const { return tree_; }
+  int points() const { return tree_.points.size(); }  ///< the own ones
+  int leaves() const { return tree_.cells.leaves(); }
   /// The leaves that hold points of `rows`.
   std::vector<int> leaves_of(Rows rows) const;
-  /// The points of a leaf, by their place in the caller's arrays.
-  std::vector<int> points_of(int leaf) const;
 
   /// Writes the field, and the potential if there is a place for it, at the points of the given leaves
-  /// (ascending) that lie in `rows`. With the potential the near field is in double precision. Ranks share
-  /// the leaves out; what is done is told of this rank's share.
+  /// (ascending) that lie in `rows`. With the potential the near field is in double precision. What is done
+  /// is told of this rank.
   Interactions evaluate(const std::vector<int>& leaves, Rows rows, const FieldArrays<3>& field,
                         Threads threads, double* potential = nullptr);
+  /// Leaves it in `sums`: three components by the tree's order of points, and the potential.
+  Interactions sum(const std::vector<int>& leaves, Threads threads, bool potential = false);
+  std::array<std::span<const double>, 3> sums() const { return tree_.points.field_sums(); }
 
-  /// The same by direct summation.
-  void evaluate_directly(const std::vector<int>& leaves, const FieldArrays<3>& field, Threads threads);
   /// What `evaluate` would do for all points, with M2L counted in full registers; no sums are done.
   Interactions count() const;
 
-  const TreeShape& shape() const { return shape_; }
+  /// What subdomains cost: messages of the last arrangement, and bytes held in all.
+  const EssentialTree::Traffic& traffic() const { return others_.traffic(); }
+  std::int64_t bytes() const;
 
   /// What `keep_order` keeps.
   void visit(Archive& state);
 
  private:
+  struct Task;
+
   void equalise_errors(Threads threads);
   std::span<const int> own_share(const std::vector<int>& leaves) const;
   void gather(const std::vector<int>& leaves, std::size_t sums);
-  Interactions local_expansions(std::span<const int> leaves, Threads threads);
-  Interactions barnes_hut(std::span<const int> leaves, Threads threads);
-  void act_near(int leaf, std::span<const int> near);
-  CellPoints leaf_cell(int leaf) const;
-  bool wanted(int cell) const { return wanted_[static_cast<std::size_t>(cell)]; }
+  Interactions local_expansions(std::span<const int> leaves, bool potential, Threads threads);
+  Interactions barnes_hut(std::span<const int> leaves, bool potential, Threads threads);
+  std::vector<Task> tasks() const;
+  void act_near(int leaf, std::span<const int> near, bool potential);
 
+  Isa isa_;
   const WideKernels* kernels_;
-  Ranks ranks_;
+  TreeRanks ranks_;
   TreeShape shape_;
-  Cells cells_;
-  Expansions expansions_{};
-  OrderedPoints points_;
-  std::vector<double> history_, locals_;
+  Tree tree_;
+  EssentialTree others_;
   std::vector<char> wanted_;
 };
 

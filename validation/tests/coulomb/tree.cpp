@@ -64,7 +64,7 @@ TEST_CASE("Every pair of points is near or far exactly once") {
               for (int s : sources) pairs += static_cast<long>(size(target)) * size(s);
             },
             [&](int leaf, std::span<const int> near) {
-              for (int k : near) pairs += static_cast<long>(size(bottom + leaf)) * size(bottom + k);
+              for (int k : near) pairs += static_cast<long>(size(bottom + leaf)) * size(k);
             },
             [](int, int, std::span<const int>) {});
     CHECK(pairs == static_cast<long>(n) * n);

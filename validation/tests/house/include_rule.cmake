@@ -30,14 +30,13 @@ room(forces/coulomb ${for_sums} forces/coulomb/simd)  # the files that stand in 
 room(forces/coulomb/tree ${for_sums} forces/coulomb/simd forces/coulomb)
 set(up_to_solver forces/coulomb/simd forces/coulomb forces/coulomb/tree forces/coulomb/solver)
 room(forces/coulomb/solver ${for_sums} ${up_to_solver})
-room(forces/coulomb/distributed ${for_sums} ${up_to_solver})
 room(forces/coulomb/command ${for_sums} ${up_to_solver})
 
 set(for_forces core/base core/jet parallel ${up_to_solver})
 room(forces/terms ${for_forces})
 room(forces/multirate ${for_forces} forces/terms)
-room(forces/distributed ${for_forces} forces/coulomb/distributed forces/terms)
-room(forces/scene ${for_forces} forces/coulomb/distributed forces/terms forces/multirate forces/distributed)
+room(forces/distributed ${for_forces} forces/terms)
+room(forces/scene ${for_forces} forces/terms forces/multirate forces/distributed)
 
 # Schemes and the march know a jet and its right-hand side, no force; a run puts all together.
 room(integrators/schemes core/base core/jet)
@@ -225,8 +224,8 @@ if(breach_here)
           "core/restart core/commands" "core/observe core/commands" "core/commands core/observe"
           "core/io forces/terms" "core/io parallel" "parallel core/base"
           "forces/coulomb/simd forces/coulomb" "forces/coulomb forces/coulomb/tree"
-          "forces/coulomb/tree forces/coulomb/solver" "forces/coulomb/solver forces/coulomb/distributed"
-          "forces/coulomb/solver forces/coulomb/command" "forces/coulomb/distributed forces/coulomb/command"
+          "forces/coulomb/tree forces/coulomb/solver"
+          "forces/coulomb/solver forces/coulomb/command"
           "forces/coulomb/tree core/jet" "forces/coulomb core/deck" "forces/coulomb/command core/io"
           "forces/coulomb/solver forces/terms" "forces/terms forces/multirate" "forces/terms forces/distributed"
           "forces/terms forces/coulomb/command" "forces/multirate forces/distributed" "forces/distributed forces/scene"
