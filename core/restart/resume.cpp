@@ -8,10 +8,11 @@
 
 namespace treejet {
 
-Resumption resumption(const std::filesystem::path& directory, const std::string& program) {
+Resumption resumption(const std::filesystem::path& directory, const std::string& program,
+                      const Readers& readers) {
   Resumption found;
   Checkpoint& c = found.checkpoint;
-  c = newest_checkpoint(directory, found.warnings);
+  c = newest_checkpoint(directory, found.warnings, readers);
   found.deck = parse_deck(c.deck_text, c.deck_name, c.overrides);
   if (c.program != program) {
     found.warnings.push_back(fmt::format(

@@ -30,9 +30,10 @@ EssentialTree::EssentialTree(const Ranks& ranks, int ranks_together, Isa isa)
 
 void EssentialTree::plant(const PointCharges<3>& piece, const TreeShape& shape, Threads threads,
                           bool keep_order) {
-  const bool same = own_.points() == piece.n && own_.leaf() == shape.leaf && block_ == shape.block;
+  const bool same = order_.size() == index(piece.n) && leaf_ == shape.leaf && block_ == shape.block;
   own_ = Cells(piece.n, shape.leaf);
   block_ = shape.block;
+  leaf_ = shape.leaf;
   if (shape.block == 0 || piece.n == 0)
     order_.clear();
   else if (!same || !keep_order)

@@ -73,6 +73,8 @@ class EssentialTree {
   const Traffic& traffic() const { return traffic_; }
   std::int64_t bytes() const;  ///< held
 
+  void visit(Archive& state) { state(order_, block_, leaf_); }
+
  private:
   /// Balls that hold a piece, for an opening: centres, and how far from a ball a cell of radius 0 must be to
   /// be far from all leaves in it, times the opening.
@@ -101,7 +103,7 @@ class EssentialTree {
   int balls_;  ///< of an outline, at most
   Cells own_;
   std::vector<int> order_, roots_;
-  int block_ = 0;  ///< of the order
+  int block_ = 0, leaf_ = 0;  ///< of the order
   bool even_ = true;
   std::vector<Cell> cells_;
   std::vector<double> centre_[3], history_, locals_, r_[3], q_;

@@ -36,7 +36,7 @@ class DistributedSolver final : public FieldSolver<3> {
 
   /// Its interactions are those of this rank; its work is that of the rank with the most.
   const CoulombReport& report() const override { return report_; }
-  void visit(Archive& state) override { state(report_, policy_, measured_piece_); }
+  void visit(Archive& state) override { state(report_, policy_, measured_piece_, pieces_); }
 
   const DistributedTreeField& pieces() const { return pieces_; }
 

@@ -51,6 +51,9 @@ class DistributedTreeField {
   /// The sums at all points, to the caller's order.
   void give(const FieldArrays<3>& field) const;
 
+  /// The order of the own points, which later calls of `arrange` may keep.
+  void visit(Archive& state) { state(tree_); }
+
   const EssentialTree::Traffic& traffic() const { return tree_.traffic(); }
   std::int64_t bytes() const;  ///< held: points, cells, expansions, letters, sums
 
