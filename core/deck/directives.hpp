@@ -27,7 +27,8 @@ using Member =
                  Scheme Parameters::*, EventRule Parameters::*, Multirate Parameters::*, Units Parameters::*,
                  CoulombSum Parameters::*, TreeOrder Parameters::*, ExpansionKind Parameters::*,
                  ParallelData Parameters::*, std::optional<bool> Parameters::*, DragModel Parameters::*,
-                 SelfField Parameters::*, SurfaceModel Parameters::*>;
+                 SelfField Parameters::*, SurfaceModel Parameters::*, StressLawKind Parameters::*,
+                 EvaporationModel Parameters::*, SolventName Parameters::*>;
 
 struct Directive {
   std::string_view words;
@@ -43,6 +44,7 @@ struct Directive {
       {};  ///< stands in the template; without it the template shows the default as a comment
   std::string_view synonyms = {};  ///< further spellings, separated by ", "
   std::string_view heading = {};   ///< opens a group of rows
+  bool since_1_21 = false;         ///< a word of JETSPIN that versions before 1.21 do not know
 };
 
 inline constexpr std::string_view last_directive = "finish";
