@@ -169,7 +169,7 @@ TEST_CASE("Both halves of a split have stress and radius between those of their 
   std::vector<Bead<3>> beads;
   double x = 0;
   for (int i = 0; i < 60; ++i)
-    beads.push_back({Vec<3>(x -= uneven(random), 0.05 * std::sin(i), 0), {}, uneven(random)});
+    beads.push_back({Vec<3>(x -= uneven(random), 0.05 * std::sin(i), 0), Vec<3>::Zero(), uneven(random)});
   const Jet<3> before = jet_of<3>(beads);
   const auto stretch = [](const Jet<3>& jet, Index i) {
     return (position<3>(jet.y, i) - position<3>(jet.y, i + 1)).norm() / jet.volume[i];
