@@ -258,11 +258,11 @@ TEST_CASE(
 
 TEST_CASE("Keys of what is not modelled are left out of the tables with a note; others are errors",
           "[deck]") {
-  const Deck deck = parse_deck(sound_deck, name, {"printstat list t nref rc visc"});
+  const Deck deck = parse_deck(sound_deck, name, {"printstat list t vol rc visc"});
   CHECK(deck.parameters.printstat_list == std::vector<std::string>{"t", "rc"});
   REQUIRE(deck.notes.size() == 2);
-  CHECK(deck.notes[0].find("nref (refinement), visc (evaporation)") != std::string::npos);
-  CHECK(message(sound_deck, {"printstat list nref"}).find("expected keys of observables") !=
+  CHECK(deck.notes[0].find("vol (variable volume), visc (evaporation)") != std::string::npos);
+  CHECK(message(sound_deck, {"printstat list vol"}).find("expected keys of observables") !=
         std::string::npos);
 }
 
