@@ -157,7 +157,7 @@ void Outputs<D>::contribute(const Parameters& p, const Nozzle<D>& nozzle, const 
   if (!decomposition.in_pieces()) return;
   const Scales s = scales(p);
   if (makes_rows(p, setting)) {
-    auto rows = recorder<D>(p, nozzle, collector, nullptr);
+    auto rows = recorder<D>(p, nozzle, collector, setting);
     rows->add(p.print_list, nullptr);
     rows->add(p.printstat_list, nullptr);
     watch("rows", std::move(rows), decomposition);
