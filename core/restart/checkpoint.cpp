@@ -18,7 +18,7 @@ namespace {
 constexpr const char *newest = "checkpoint", *older = "checkpoint.old", *unfinished = "checkpoint.new";
 
 /// In front of the bytes. The number changes with the layout of what follows.
-constexpr std::string_view title = "treejet checkpoint 3\n";
+constexpr std::string_view title = "treejet checkpoint 4\n";
 
 struct Seal {
   std::uint64_t byte_order = 0x0102030405060708, length = 0, checksum = 0;
