@@ -20,7 +20,8 @@
 /// and both halves have the stress of the whole.
 ///
 /// Merged are the two elements at a bead k: V and m_k, q_k go to the neighbours in the shares that a split
-/// would take, sigma is the mean by volume, and v_i, v_j += u again. A merge undoes a split to round-off.
+/// would take, sigma is the mean by volume, and v_i, v_j += u again. A merge undoes a split to round-off, but
+/// for neighbours that are split at once.
 ///
 /// Kept: sum of V, m, q and sigma V, linear momentum, all to round-off (to the bit for the first three while
 /// volumes are 1, 1/2, 1/4, ...). Not kept, by terms of second order in l: angular momentum, kinetic energy,

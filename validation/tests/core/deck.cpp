@@ -238,7 +238,7 @@ TEST_CASE(
     "A feature that is switched off, or concerns files alone, is one note whatever the number of its lines",
     "[deck]") {
   for (const char* line :
-       {"multiple step no", "dynamic refinement no", "restart no", "variable mass no", "dragvel yes",
+       {"multiple step no", "evaporation no", "restart no", "variable mass no", "dragvel yes",
         "noise pool 10", "lorentz no", "mirror no", "job time 3600", "print binary 1.d-4 style 3",
         "printstat binary", "print pdb frame 1.d-3", "print xyz frame 1.d-2", "print rescalexyz",
         "cutoff points 1000"}) {

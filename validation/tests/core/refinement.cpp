@@ -113,12 +113,12 @@ TEST_CASE(
   check_same(sums(jet), before, 1e-11);  // a round-off a change
 }
 
-TEST_CASE("A merge undoes a split") {
+TEST_CASE("A merge undoes a split, of elements that are not neighbours") {
   const Jet<3> before = coil(40);
   Jet<3> jet = before;
-  split<3>(jet, {0, 5, 6, 7, 20, 39});
+  split<3>(jet, {0, 5, 7, 20, 39});
   CHECK((jet.mass > 0).all());
-  merge<3>(jet, {1, 7, 9, 11, 25, 45});
+  merge<3>(jet, {1, 7, 10, 24, 44});
   REQUIRE(jet.size() == before.size());
   CHECK((jet.y - before.y).abs().maxCoeff() < 1e-13);
   CHECK((jet.mass - before.mass).abs().maxCoeff() == 0);

@@ -48,7 +48,7 @@ TEST_CASE("The PVP jet is composed of every term") {
   CHECK(terms(scene) == Names{viscoelastic, field, gravity, tension, coulomb});
   CHECK(scene.motion->stress_law().name() == "Maxwell stress");
   CHECK(named(scene.left_out) == Names{"Herschel-Bulkley stress", "slender self-field", "viscous tension", "air drag",
-                                       "air lift", "friction", "random force"});
+                                       "air lift", "friction", "random force", "splitting and merging of elements"});
 }
 
 TEST_CASE("The single bead has neither gravity nor surface tension, events or a circling nozzle") {
@@ -58,7 +58,7 @@ TEST_CASE("The single bead has neither gravity nor surface tension, events or a 
   CHECK(named(scene.left_out) == Names{"Herschel-Bulkley stress", "viscous tension", gravity, tension, "slender self-field",
                                        "air drag", "air lift", "friction", "random force",
                                        "insertion at the nozzle", "removal at the collector",
-                                       "circling nozzle", "two rates"});
+                                       "circling nozzle", "two rates", "splitting and merging of elements"});
   CHECK(reason(scene, gravity) == "no gravity yes");
   CHECK(reason(scene, tension) == "a straight jet (system 1) has no curvature");
   CHECK_FALSE(scene.nozzle.inserting());
