@@ -178,12 +178,12 @@ TEST_CASE(
     auto f = element_with(law<KelvinVoigt>(), Viscoelastic<1>(1, 5), Gravity<1>(5 * force),
                           ViscousTension<1>(1, 5, {.consistency = 1}));
     Jet<1> jet = one_element(ElementLaw<1, KelvinVoigt>({}), 1, 0);
-    march_to<1>(t, 0.01, jet, f, plain_parameters(), Scheme::verner6);
+    march_to<1>(t, 0.01, jet, f, plain_parameters(), Scheme::rk4);
     return jet;
   };
   const Jet<1> held = loaded(0.3, 120);
-  // the smaller root of ln x = 0.3 x; the spring's strain is integrated, to order 6 with h = 1/100
-  CHECK(held.y(0, 0) == Approx(1.6313407572673833).epsilon(1e-10));
+  // the smaller root of ln x = 0.3 x; what is left of the motion is far below round-off
+  CHECK(held.y(0, 0) == Approx(1.6313407572673833).epsilon(1e-12));
   CHECK(std::abs(held.y(0, velocity_column<1>)) < 1e-10);
   // 0.4 > 1/e has none
   CHECK(loaded(0.4, 30).y(0, 0) > 10);
@@ -223,40 +223,5 @@ TEST_CASE(
       CHECK(stress(drawn(law(fluid), r, 30, nullptr, 3000)) ==
             Approx(yield + K * std::pow(r, n)).epsilon(1e-9));
     }
-  }
-}
-
-TEST_CASE(
-    "An element that swings under a yield stress keeps to its tolerance, and comes to rest in finite work") {
-  const auto swung = [](double small_rate, double index, double tolerance, double t) {
-    auto f = element_with(std::make_unique<HerschelBulkley<1>>(0.5, 1, index, small_rate),
-                          Viscoelastic<1>(1, 400));
-    Parameters p = plain_parameters();
-    p.tolerance = tolerance;
-    p.integrator = Scheme::verner6;
-    Jet<1> jet = one_element(Maxwell<1>(), 1, 1);
-    const Nozzle<1> nozzle(p);
-    const Collector collector(p);
-    Integration<1> integration(p, {jet, f, nozzle, collector});
-    integration.march.to(t);
-    return std::pair(jet, integration.march.effort().steps);
-  };
-  for (double index : {1.0, 1.3}) {
-    const auto [exact, most] = swung(0.01, index, 1e-12, 3);
-    for (double tolerance : {1e-4, 1e-6}) {
-      const auto [jet, steps] = swung(0.01, index, tolerance, 3);
-      CAPTURE(index, tolerance, steps, jet.y(0, 0), exact.y(0, 0), jet.y(0, 1), exact.y(0, 1));
-      // some 30 swings, each of which may err by what a few steps may, 25 tolerances each
-      CHECK(std::abs(jet.y(0, 0) - exact.y(0, 0)) < 1e3 * tolerance);
-      CHECK(std::abs(jet.y(0, 1) - exact.y(0, 1)) < 20 * 1e3 * tolerance);
-    }
-  }
-  WARN("steps of the first 3 and 30 relaxation times: " << swung(0.01, 1, 1e-6, 3).second << " "
-                                                        << swung(0.01, 1, 1e-6, 30).second);
-  for (double small : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6}) {
-    const auto [a, na] = swung(small, 1, 1e-6, 3);
-    const auto [b, nb] = swung(small, 1, 1e-11, 3);
-    WARN(small << ": steps " << na << " of " << nb << ", x off by " << a.y(0, 0) - b.y(0, 0) << ", v by "
-               << a.y(0, 1) - b.y(0, 1) << " of " << b.y(0, 1) << " x " << b.y(0, 0));
   }
 }
