@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace treejet {
 
 namespace {
@@ -39,8 +37,8 @@ std::string likely_slip(const Directive& d, double number, Units units) {
   const std::string_view unit = bare_unit(d, units);
   for (const Range& r : ranges) {
     if (r.words != d.words || r.unit != unit || number == 0) continue;
-    if (std::abs(number) >= r.least && std::abs(number) <= r.most) return {};
-    const bool low = std::abs(number) < r.least;
+    if (number >= r.least && number <= r.most) return {};
+    const bool low = number < r.least;
     const std::string_view meant = low ? r.unit_below : r.unit_above;
     const std::string hint =
         meant == unit ? "" : fmt::format("; if {0} are meant, write {1:.10g} {0}", meant, number);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "forces/terms/uniform.hpp"
 #include "validation/support/scenes.hpp"
 
 using namespace treejet;
