@@ -9,7 +9,7 @@
 #include "forces/terms/laws/inelastic.hpp"
 #include "forces/terms/laws/kelvin_voigt.hpp"
 #include "forces/terms/laws/oldroyd_b.hpp"
-#include "forces/terms/gravity.hpp"
+#include "forces/terms/uniform.hpp"
 #include "forces/terms/viscoelastic.hpp"
 #include "forces/terms/viscous_tension.hpp"
 #include "validation/support/prescribed.hpp"
@@ -178,12 +178,12 @@ TEST_CASE(
     auto f = element_with(law<KelvinVoigt>(), Viscoelastic<1>(1, 5), Gravity<1>(5 * force),
                           ViscousTension<1>(1, 5, {.consistency = 1}));
     Jet<1> jet = one_element(ElementLaw<1, KelvinVoigt>({}), 1, 0);
-    march_to<1>(t, 0.01, jet, f, plain_parameters(), Scheme::rk4);
+    march_to<1>(t, 0.01, jet, f, plain_parameters(), Scheme::verner6);
     return jet;
   };
   const Jet<1> held = loaded(0.3, 120);
-  // the smaller root of ln x = 0.3 x; what is left of the motion is far below round-off
-  CHECK(held.y(0, 0) == Approx(1.6313407572673833).epsilon(1e-12));
+  // the smaller root of ln x = 0.3 x; the spring's strain is integrated, to order 6 with h = 1/100
+  CHECK(held.y(0, 0) == Approx(1.6313407572673833).epsilon(1e-10));
   CHECK(std::abs(held.y(0, velocity_column<1>)) < 1e-10);
   // 0.4 > 1/e has none
   CHECK(loaded(0.4, 30).y(0, 0) > 10);

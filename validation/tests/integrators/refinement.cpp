@@ -45,21 +45,6 @@ Parameters jet_that_refines(const std::vector<std::string>& more) {
 
 }  // namespace
 
-TEST_CASE("A thread that is refined on its way goes where one of finer elements does") {
-  constexpr double end = 1e-3;
-  Run<3> coarse = bent_thread(20, {}), fine = bent_thread(80, {});
-  Run<3> refined =
-      bent_thread(20, {"dynamic refinement yes", "dynamic refinement every 5.d-5",
-                       "dynamic refinement threshold 0.16", "dynamic refinement tolerance 2.d-3"});
-  const Vec<3> truth = middle_of(fine, end);
-  const double of_coarse = (middle_of(coarse, end) - truth).norm(),
-               of_refined = (middle_of(refined, end) - truth).norm();
-  CAPTURE(of_coarse, of_refined, refined.jet().size());
-  CHECK(refined.jet().size() > 30);
-  CHECK(refined.jet().mass.sum() == Approx(20).epsilon(1e-13));
-  CHECK(of_refined < of_coarse / 2);
-}
-
 TEST_CASE("Refinement costs no order in time: the same beads, and errors that fall as the scheme's") {
   std::vector<Vec<3>> middles;
   std::vector<Index> beads;

@@ -97,7 +97,7 @@ set -- run "$pvp" --quiet --set "final time 1.d-3" --set "print time 1.d-4" --se
 on 5 "$treejet" "$@" --out few 2>err || fail "more ranks than beads: $(cat err)"
 "$treejet" "$@" --out alone
 cmp -s few/statdat.dat alone/statdat.dat || fail "more ranks than beads: other numbers"
-set -- run "$pvp" --quiet --set "final time 4.d-3" --set "self field slender" --set "print hdf5 1.d-3" \
+set -- run "$pvp" --quiet --set "final time 4.d-3" --set "self field slender" --set "print time 1.d-3" --set "print hdf5 1.d-3" \
   --set "dynamic refinement yes" --set "dynamic refinement tolerance 1.d-2" --set "printstat list t x n nref"
 on 3 "$treejet" "$@" --threads 2 --out refined 2>err || fail "a jet that refines: $(cat err)"
 "$treejet" "$@" --threads 1 --out refined-alone
