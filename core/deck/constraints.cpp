@@ -9,6 +9,7 @@
 #include <span>
 
 #include "core/deck/observable_keys.hpp"
+#include "core/jet/noise.hpp"
 #include "core/jet/scales.hpp"
 #include "core/jet/schemes.hpp"
 #include "core/jet/stiffness.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr double round_off = 1e-9;  ///< relative: a third of 0.02 typed with ten digits is a third
 constexpr double most_elements = 1e8;
+constexpr double most_intervals = 1e12;  ///< of the clock of noise, of which each step lies within one
 
 class Relations {
  public:
@@ -32,6 +34,8 @@ class Relations {
     coulomb_sum();
     self_field();
     fluid();
+    drag();
+    randomness();
     output();
     pieces();
     if (composable()) finite_scales();
@@ -148,10 +152,42 @@ class Relations {
     }
   }
 
+  void drag() {
+    constexpr const char* details[] = {"airdrag airdensity", "airdrag airviscosity", "airdrag airvelocity",
+                                       "airdrag model",      "airdrag lift",         "airdrag amplitude"};
+    error(p_.system == 4 && is_given("airdrag") && !p_.airdrag, {"system", "airdrag"},
+          "expected airdrag yes, which system 4 means, or system 3");
+    for (const char* detail : details)
+      note(!in_air(p_) && is_given(detail), detail, "no effect without airdrag yes");
+    const bool full = in_air(p_) && p_.drag_model == DragModel::full;
+    note(full && p_.system == 1, "airdrag model", "in system 1 there is drag along the jet only");
+    note(
+        full && p_.system != 1 && p_.removing, "airdrag model",
+        "coils that sink slower than the jet feeds them pile up; that they touch each other is not modelled");
+    error(p_.system == 1 && p_.airdrag_lift.value_or(false), {"airdrag lift", "system"},
+          "expected no in system 1: a straight jet has no bends");
+  }
+
+  void randomness() {
+    error(p_.noise && !is_given("noise diffusivity"), {"noise"},
+          "expected noise diffusivity to be given, too");
+    for (const char* detail : {"noise diffusivity", "noise variance"})
+      note(!p_.noise && is_given(detail), detail, "no effect without noise yes");
+    const bool white = p_.integrator == Scheme::sra1;
+    note(is_given("noise interval") && (white || !is_random(p_)), "noise interval",
+         white ? "no effect: the noise of integrator sra1 is white" : "no effect: nothing here is random");
+    note(is_given("seed") && !is_random(p_), "seed", "no effect: nothing here is random");
+    if (p_.noise_interval && sound("noise interval"))
+      error(p_.final_time / *p_.noise_interval > most_intervals, {"noise interval", "final time"},
+            fmt::format("expected at least {:.3g} s: at most {:.0e} intervals of final time ({} s)",
+                        p_.final_time / most_intervals, most_intervals, p_.final_time));
+    note(white && is_given("events") && p_.events == EventRule::located, "events",
+         "no effect with integrator sra1: a random path is not cut within a step");
+  }
+
   void output() {
     for (const char* detail : {"print xyz maxnum", "print xyz rescale"})
       note(!p_.print_xyz && is_given(detail), detail, "no effect without print xyz and an interval");
-    note(is_given("seed"), "seed", "no effect: nothing here is random");
     interval("print time", p_.print_time);
     interval("print xyz", p_.print_xyz);
     interval("print hdf5", p_.print_hdf5);
@@ -204,7 +240,10 @@ class Relations {
                                 {"F_g (gravity)", g.F_g, p_.gravity},
                                 {"K_s (nozzle)", g.K_s, p_.perturb && p_.perturb_frequency > 0},
                                 {"H (collector)", g.H, true},
-                                {"L_step (element)", g.L_step, true}};
+                                {"L_step (element)", g.L_step, true},
+                                {"air density", air(p_).density, in_air(p_)},
+                                {"air viscosity", air(p_).viscosity, in_air(p_)},
+                                {"noise", noise(p_).squared_amplitude(1), is_random(p_)}};
     for (const Product& product : products) {
       if (std::isfinite(product.value) && (!product.positive || std::isnormal(product.value))) continue;
       findings_.errors.push_back(
@@ -225,6 +264,8 @@ class Relations {
           "expected coulomb expansions local");
     error(p_.tolerance && p_.multirate != Multirate::no, {"parallel", "multirate"},
           "expected multirate no: all forces are evaluated at each stage");
+    error(p_.integrator == Scheme::sra1, {"parallel", "integrator"},
+          "expected another integrator than sra1, which draws for all beads of the jet");
     error(p_.checkpoint.has_value(), {"parallel", "checkpoint"},
           "expected no checkpoint: none can be written");
     if (composable())

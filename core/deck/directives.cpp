@@ -16,8 +16,8 @@ using P = Parameters;
 constexpr Check positive{"positive", [](double v) { return v > 0; }};
 constexpr Check not_negative{"zero or positive", [](double v) { return v >= 0; }};
 constexpr Check below_one{"positive and below 1", [](double v) { return v > 0 && v < 1; }};
-constexpr Check one_or_three{"1 (straight jet) or 3 (three dimensions)",
-                             [](double v) { return v == 1 || v == 3; }};
+constexpr Check a_system{"1 (straight jet), 3 (three dimensions) or 4 (the same in air)",
+                         [](double v) { return v == 1 || v == 3 || v == 4; }};
 constexpr Check a_count{"from 1 to 100000000", [](double v) { return v >= 1 && v <= 1e8; }};
 constexpr Check a_factor{"from 1e-100 to 1e100", [](double v) { return v >= 1e-100 && v <= 1e100; }};
 constexpr Check an_order{tree_parameters::orders, tree_parameters::is_order};
@@ -30,13 +30,12 @@ const std::string integrators =
 
 // clang-format off
 const Directive table[] = {
-    {.words = "system", .member = &P::system, .check = one_or_three,
-     .meaning = "model of the jet: 1 straight along x, 3 in three dimensions",
+    {.words = "system", .member = &P::system, .check = a_system,
+     .meaning = "model of the jet: 1 straight along x, 3 in three dimensions, 4 for 3 with airdrag yes",
      .mandatory = true, .example = "3", .synonyms = "systype", .heading = "Model"},
     {.words = "units", .member = &P::units,
      .meaning = "cgs, or real: a bare density charge is in C/L, a bare external potential in V, all else in CGS"},
-    {.words = "seed", .member = Ignored{},
-     .meaning = "accepted for JETSPIN's sake: nothing here is random", .absent = "no effect"},
+    {.words = "seed", .member = &P::seed, .meaning = "of the random numbers, where anything is random"},
 
     {.words = "final time", .member = &P::final_time, .unit = "s", .check = positive,
      .meaning = "end of the simulation", .mandatory = true, .example = "5.d-2", .heading = "Time"},
@@ -111,6 +110,29 @@ const Directive table[] = {
     {.words = "self field", .member = &P::self_field,
      .meaning = "field of an element on itself: none, beads are point charges (point), or that of a thin charged tube "
                 "(slender), with which the force on a bend does not depend on the length of the elements"},
+
+    {.words = "airdrag", .member = &P::airdrag, .meaning = "drag of the air", .heading = "Air and noise"},
+    {.words = "airdrag airdensity", .member = &P::air_density, .unit = "g/cm^3", .check = positive,
+     .meaning = "density of the air; the default is that at 20 C"},
+    {.words = "airdrag airviscosity", .member = &P::air_viscosity, .unit = "cm^2/s", .check = positive,
+     .meaning = "its kinematic viscosity"},
+    {.words = "airdrag airvelocity", .member = &P::air_velocity, .unit = "cm/s",
+     .meaning = "its velocity along x, below zero towards the nozzle"},
+    {.words = "airdrag model", .member = &P::drag_model,
+     .meaning = "drag along the jet and lift, as JETSPIN has them (jetspin), or drag along and across it (full)"},
+    {.words = "airdrag lift", .member = &P::airdrag_lift,
+     .meaning = "lift of the air on bends, which drives them farther out", .absent = "yes with model jetspin, no with full"},
+    {.words = "airdrag amplitude", .member = &P::airdrag_amplitude, .check = not_negative,
+     .meaning = "of a random force, JETSPIN's"},
+    {.words = "noise", .member = &P::noise,
+     .meaning = "each bead's velocity diffuses: needs diffusivity"},
+    {.words = "noise diffusivity", .member = &P::noise_diffusivity, .unit = "cm^2/s^3", .check = not_negative,
+     .meaning = "half the growth of a component's variance in time", .absent = "mandatory with noise yes"},
+    {.words = "noise variance", .member = &P::noise_variance, .unit = "cm^2/s^2", .check = positive,
+     .meaning = "that a component comes to by the friction diffusivity / variance", .absent = "no friction"},
+    {.words = "noise interval", .member = &P::noise_interval, .unit = "s", .check = positive,
+     .meaning = "for which a random force is constant; integrator sra1 has white noise",
+     .absent = "a 20th of the relaxation time, or of the time between two beads if that is shorter"},
 
     {.words = "coulomb", .member = &P::coulomb,
      .meaning = "Coulomb sum: direct over all pairs; by a tree to the accuracy below; auto: whichever is faster",

@@ -21,15 +21,13 @@ struct Check {
   bool (*holds)(double);
 };
 
-/// Read as an integer, then dropped with a note.
-struct Ignored {};
-
 using Member =
     std::variant<double Parameters::*, std::optional<double> Parameters::*, int Parameters::*,
                  std::optional<int> Parameters::*, bool Parameters::*, std::vector<std::string> Parameters::*,
                  Scheme Parameters::*, EventRule Parameters::*, Multirate Parameters::*, Units Parameters::*,
                  CoulombSum Parameters::*, TreeOrder Parameters::*, ExpansionKind Parameters::*,
-                 ParallelData Parameters::*, SelfField Parameters::*, SurfaceModel Parameters::*, Ignored>;
+                 ParallelData Parameters::*, std::optional<bool> Parameters::*, DragModel Parameters::*,
+                 SelfField Parameters::*, SurfaceModel Parameters::*>;
 
 struct Directive {
   std::string_view words;

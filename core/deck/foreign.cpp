@@ -13,10 +13,7 @@ constexpr std::string_view resumed =
 // clang-format off
 const Foreign table[] = {
     {"system 2", "system 2", "JETSPIN has no working system 2; write system 1 or system 3"},
-    {"system 4", "air drag", "air drag is not modelled; write system 3 and leave the airdrag lines out"},
-    {"airdrag", "air drag", "air drag is not modelled; leave the line out", "no"},
-    {"integrator 4", "noise", "JETSPIN's stochastic scheme is not modelled; write integrator 1, 2 or 3"},
-    {"noise", "noise", "random forces are not modelled; leave the line out", "no", false, true},
+    {"noise pool", "pool of random numbers", "random numbers are drawn as they are needed", {}, true, true},
     {"evaporation", "evaporation", "all of the fluid arrives; leave the line out", "no", false, true},
     {"cutoff points", "cutoff points",
      "JETSPIN 1.00 took the number for a length in cm; write cutoff and that length, or leave the line out for "

@@ -38,6 +38,7 @@ constexpr Word<ExpansionKind> expansions[] = {{"local", ExpansionKind::local}, {
 constexpr Word<ParallelData> parallel_data[] = {{"replicated", ParallelData::replicated},
                                                 {"distributed", ParallelData::distributed}};
 constexpr Word<SelfField> self_fields[] = {{"point", SelfField::point}, {"slender", SelfField::slender}};
+constexpr Word<DragModel> drag_models[] = {{"jetspin", DragModel::jetspin}, {"full", DragModel::full}};
 constexpr Word<SurfaceModel> surface_models[] = {{"paper", SurfaceModel::paper},
                                                  {"energy", SurfaceModel::energy}};
 
@@ -78,6 +79,9 @@ std::span<const Word<ParallelData>> words_of(ParallelData) {
 std::span<const Word<SelfField>> words_of(SelfField) {
   return self_fields;
 }
+std::span<const Word<DragModel>> words_of(DragModel) {
+  return drag_models;
+}
 std::span<const Word<SurfaceModel>> words_of(SurfaceModel) {
   return surface_models;
 }
@@ -115,19 +119,17 @@ std::string kind(double) {
 std::string kind(int) {
   return "integer";
 }
-std::string kind(Ignored) {
-  return "integer";
-}
 std::string kind(const std::vector<std::string>&) {
   return "keys";
 }
 template <class T>
-std::string kind(const std::optional<T>&) {
-  return kind(T{});
-}
-template <class T>
 std::string kind(T choice) {
   return fmt::format("{}", fmt::join(known_words(choice), "|"));
+}
+
+template <class T>
+std::string kind(const std::optional<T>&) {
+  return kind(T{});
 }
 
 std::string expected(const Directive& d) {
@@ -194,19 +196,6 @@ std::string read(const Directive& d, Arguments a, int& target) {
   return read_number(d, a, integer, target);
 }
 
-std::string read(const Directive& d, Arguments a, Ignored) {
-  int dropped = 0;
-  return read(d, a, dropped);
-}
-
-template <class T>
-std::string read(const Directive& d, Arguments arguments, std::optional<T>& target) {
-  T value{};
-  std::string problem = read(d, arguments, value);
-  if (problem.empty()) target = value;
-  return problem;
-}
-
 std::string read(const Directive& d, Arguments arguments, std::vector<std::string>& target) {
   if (arguments.empty()) return expected(d) + found(arguments);
   const std::vector<std::string_view> keys = known_keys();
@@ -236,21 +225,22 @@ std::string read(const Directive& d, Arguments arguments, T& target) {
   return expected(d) + found(arguments) + meant(word, known_words(T{}));
 }
 
+template <class T>
+std::string read(const Directive& d, Arguments arguments, std::optional<T>& target) {
+  T value{};
+  std::string problem = read(d, arguments, value);
+  if (problem.empty()) target = value;
+  return problem;
+}
+
 std::string text(double value) {
   return fmt::format("{}", value);
 }
 std::string text(int value) {
   return fmt::format("{}", value);
 }
-std::string text(Ignored) {
-  return {};
-}
 std::string text(const std::vector<std::string>& keys) {
   return fmt::format("{}", fmt::join(keys, " "));
-}
-template <class T>
-std::string text(const std::optional<T>& value) {
-  return value ? text(*value) : "";
 }
 template <class T>
 std::string text(T value) {
@@ -259,17 +249,15 @@ std::string text(T value) {
   return {};
 }
 
+template <class T>
+std::string text(const std::optional<T>& value) {
+  return value ? text(*value) : "";
+}
+
 /// f applied to what the member pointer points at in the parameters.
 template <class Params, class F>
 std::string on_member(const Directive& d, Params& parameters, F&& f) {
-  return std::visit(
-      [&](auto member) {
-        if constexpr (std::is_same_v<decltype(member), Ignored>)
-          return f(member);
-        else
-          return f(parameters.*member);
-      },
-      d.member);
+  return std::visit([&](auto member) { return f(parameters.*member); }, d.member);
 }
 
 }  // namespace

@@ -24,9 +24,10 @@ struct Chain {
 
   double t = 0;
   int beads = 0;
-  Points point;                 ///< beads, [held], nozzle
-  Eigen::ArrayXd point_charge;  ///< as the Coulomb sum sees it
-  Points tangent;               ///< per element, like all below
+  std::int64_t first_number = 0;  ///< bead i was the (first_number + i)-th inserted
+  Points point;                   ///< beads, [held], nozzle
+  Eigen::ArrayXd point_charge;    ///< as the Coulomb sum sees it
+  Points tangent;                 ///< per element, like all below
   Eigen::ArrayXd inverse_length, strain_rate, stress, inverse_mass, volume;
   const State<D>* state = nullptr;  ///< of the beads
   Vec<D> nozzle_velocity = Vec<D>::Zero();
@@ -45,6 +46,7 @@ template <int D>
 void set_boundary(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, double t, const State<D>& y) {
   const Eigen::Index n = y.rows(), points = n + (jet.held ? 2 : 1);
   chain.t = t;
+  chain.first_number = jet.removed;
   chain.beads = static_cast<int>(n);
   chain.state = &y;
   chain.nozzle_velocity = nozzle.velocity(t);
@@ -64,7 +66,7 @@ void set_boundary(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, d
   chain.point_charge[points - 1] = Nozzle<D>::charge;
 }
 
-/// Sets the beads first <= i < last as points, with their masses. with their masses.
+/// Sets the beads first <= i < last as points, with their masses.
 template <int D>
 void set_points(Chain<D>& chain, const Jet<D>& jet, const State<D>& y,
                 std::pair<Eigen::Index, Eigen::Index> rows) {

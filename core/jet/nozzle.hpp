@@ -39,7 +39,7 @@ class Nozzle {
       : inserting_(p.inserting),
         l_step_(groups(p).L_step),
         speed_(p.nozzle_velocity / scales(p).velocity),
-        release_waits_(p.events == EventRule::step) {
+        release_waits_(event_rule(p) == EventRule::step) {
     for (const Column& column : added) at_birth_.push_back(column.at_birth);
     if (p.perturb && D == 3) {
       angular_frequency_ = groups(p).K_s;

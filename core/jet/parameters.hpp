@@ -9,7 +9,7 @@
 
 namespace treejet {
 
-enum class Scheme { automatic, euler, heun, rk4, dopri5, verner6, kencarp5 };
+enum class Scheme { automatic, euler, heun, rk4, sra1, dopri5, verner6, kencarp5 };
 enum class EventRule { located, step };
 enum class Multirate { automatic, no };
 enum class Units { cgs, real };
@@ -18,6 +18,7 @@ enum class TreeOrder { automatic, chain, space };
 enum class ExpansionKind { local, none };
 enum class SelfField { point, slender };
 enum class SurfaceModel { paper, energy };
+enum class DragModel { jetspin, full };
 enum class ParallelData { replicated, distributed };
 
 /// How the Coulomb sum is made; what is not given the program chooses.
@@ -30,8 +31,28 @@ struct CoulombSetting {
   ExpansionKind coulomb_expansions = ExpansionKind::local;
 };
 
-struct Parameters : CoulombSetting {
-  int system = 3;  ///< 1: straight jet along x; 3: three dimensions
+/// The gas around the jet; that of a room at 20 C and 1 atm where the deck names none.
+struct AirSetting {
+  bool airdrag = false;
+  double air_density = 1.21e-3;  ///< g/cm^3
+  double air_viscosity = 0.151;  ///< kinematic, cm^2/s
+  double air_velocity = 0;       ///< along x, cm/s
+  double airdrag_amplitude = 0;  ///< of JETSPIN's random force, see core/jet/noise.hpp
+  DragModel drag_model = DragModel::jetspin;
+  std::optional<bool> airdrag_lift;  ///< not given: with the model of JETSPIN only
+};
+
+/// Random forces (core/jet/noise.hpp).
+struct NoiseSetting {
+  bool noise = false;
+  std::optional<double> noise_diffusivity;  ///< cm^2/s^3
+  std::optional<double> noise_variance;     ///< of a component of the velocity, cm^2/s^2
+  std::optional<double> noise_interval;     ///< s
+  int seed = 1;
+};
+
+struct Parameters : CoulombSetting, AirSetting, NoiseSetting {
+  int system = 3;  ///< 1: straight jet along x; 3: three dimensions; 4: the same in air
   Units units = Units::cgs;
 
   Scheme integrator = Scheme::automatic;
@@ -83,6 +104,19 @@ struct Parameters : CoulombSetting {
 
   std::optional<double> checkpoint;  ///< s of wall-clock time
 };
+
+/// `system 4` is `system 3` with `airdrag yes`.
+inline bool in_air(const Parameters& p) {
+  return p.airdrag || p.system == 4;
+}
+inline bool lifts(const Parameters& p) {
+  return in_air(p) && p.airdrag_lift.value_or(p.drag_model == DragModel::jetspin);
+}
+
+/// A random path is not cut within a step: its scheme meets events at step ends.
+inline EventRule event_rule(const Parameters& p) {
+  return p.integrator == Scheme::sra1 ? EventRule::step : p.events;
+}
 
 /// The interval of the tables in s; without print time JETSPIN's 1000 steps, or a hundredth of the run.
 inline double print_interval(const Parameters& p) {

@@ -52,4 +52,10 @@ Groups groups(const Parameters& p) {
   return g;
 }
 
+Gas air(const Parameters& p) {
+  const Scales s = scales(p);
+  const double volume = s.length * s.length * s.length, viscosity = s.length * s.velocity;
+  return {p.air_density * volume / s.mass, p.air_viscosity / viscosity, p.air_velocity / s.velocity};
+}
+
 }  // namespace treejet

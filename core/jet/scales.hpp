@@ -6,6 +6,7 @@
 /// with m = q = 1; the terms divide by the scaled mass and multiply by the scaled charge of each bead.
 /// Without charge the paper's L_0 vanishes; the length scale is then l_step and Q = V = 0.
 
+#include "core/jet/gas.hpp"
 #include "core/jet/parameters.hpp"
 
 namespace treejet {
@@ -38,6 +39,9 @@ constexpr double standard_gravity = 980.665;  ///< cm/s^2
 
 Scales scales(const Parameters& p);
 Groups groups(const Parameters& p);
+
+/// The air, scaled; it exerts forces of the scaled equations of motion.
+Gas air(const Parameters& p);
 
 /// Number of elements of the initial jet.
 int initial_elements(const Parameters& p);

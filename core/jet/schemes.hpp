@@ -27,6 +27,7 @@ inline constexpr auto schemes = std::to_array<SchemeProperties>({
     {Scheme::euler, "euler", "1", "Euler", 1, false, false},
     {Scheme::heun, "heun", "2", "Heun", 2, false, false},
     {Scheme::rk4, "rk4", "3", "Runge-Kutta 4", 4, false, false},
+    {Scheme::sra1, "sra1", "4", "stochastic Runge-Kutta SRA1", 2, false, false},
     {Scheme::dopri5, "dopri5", "", "Dormand-Prince 5(4)", 5, true, false},
     {Scheme::verner6, "verner6", "", "Verner 6(5)", 6, true, false},
     {Scheme::kencarp5, "kencarp5", "", "Kennedy-Carpenter 5(4), local terms implicit", 5, true, true},

@@ -42,6 +42,15 @@ double speed(const Parameters& p, const Scales& s, double drive) {
   return (low + high) / 2;
 }
 
+double drag_rate(const Parameters& p, double v, double v_c) {
+  if (!in_air(p)) return 0;
+  const Gas gas{p.air_density, p.air_viscosity, p.air_velocity};
+  const double a = p.nozzle_cross * (v_c > 0 ? std::sqrt(v / v_c) : 1), wind = std::abs(v_c - p.air_velocity);
+  const double mass = p.density_mass * std::numbers::pi * a * a,
+               axial = along(gas, a, wind).by_speed() / mass;
+  return p.drag_model == DragModel::full ? std::max(axial, across(gas, a, wind).by_speed() / mass) : axial;
+}
+
 }  // namespace
 
 Stiffness stiffness(const Parameters& p) {
@@ -49,8 +58,11 @@ Stiffness stiffness(const Parameters& p) {
   const double charge_density = s.charge / s.mass * p.density_mass,
                section = s.mass / p.density_mass / s.l_step;
   const double field_on_element = groups(p).V * s.mass * s.length / (s.time * s.time) / section;
-  const double v = speed(p, s, section * charge_density * charge_density + field_on_element);
-  return {fastest_rate(p, s), s.time, std::min(s.l_step / std::max(v, p.nozzle_velocity), p.final_time)};
+  const double v =
+      std::max(speed(p, s, section * charge_density * charge_density + field_on_element), p.nozzle_velocity);
+  const double work = field_on_element / s.l_step * p.collector_distance / p.density_mass;
+  const double drag = drag_rate(p, v, std::sqrt(v * v + 2 * work));
+  return {std::max(fastest_rate(p, s), drag), s.time, std::min(s.l_step / v, p.final_time), drag};
 }
 
 Scheme chosen_scheme(const Parameters& p) {

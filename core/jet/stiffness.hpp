@@ -9,6 +9,10 @@
 /// its element, at most by  dT/dl = q^2 / l^3 (2 |g| + 9/2)  (forces/terms/slender_self_field.hpp), and
 /// omega^2 grows by 4 dT/dl / m.
 ///
+/// Air slows a bead down at d(drag)/dv over its mass (core/jet/gas.hpp), the faster the thinner the jet is.
+/// In free flight to the collector, where a straight one ends, v_c^2 = v^2 + 2 rho_q V_0 / rho and a = a_0
+/// sqrt(v / v_c); bends thin it further.
+///
 /// Accuracy asks for a few steps a bead. Beads follow each other at l_step / v, where inertia and the Maxwell
 /// stress balance what drives the jet, the repulsion of neighbours and the field on one element:
 ///     rho v^2 + mu e / (1 + tau e) = pi a_0^2 rho_q^2 + rho_q l_step V_0 / h ,      e = v / l_step .
@@ -23,6 +27,7 @@ struct Stiffness {
   double fastest_rate;   ///< |lambda|, 1/s
   double relaxation;     ///< tau, s
   double bead_interval;  ///< l_step / v, s
+  double drag_rate;      ///< 1/s, 0 without air
 
   /// Steps a bead to which stability binds an explicit scheme.
   double stable_steps() const {
@@ -30,9 +35,12 @@ struct Stiffness {
     return fastest_rate * bead_interval / reach;
   }
 
-  /// Stress that relaxes within the interval of beads cannot be continued in time over several of them: PVP
-  /// at two rates runs at G times 10 (interval / tau = 3) and breaks down at G times 20 (6.5).
-  bool relaxes_between_beads() const { return bead_interval > 2 * relaxation; }
+  /// Stress, or motion through the air, that relaxes within the interval of beads cannot be continued in time
+  /// over several of them: PVP at two rates runs at G times 10 (interval / tau = 3) and breaks down at G
+  /// times 20 (6.5).
+  bool relaxes_between_beads() const {
+    return bead_interval > 2 * relaxation || drag_rate * bead_interval > 2;
+  }
 };
 
 Stiffness stiffness(const Parameters& p);

@@ -42,6 +42,7 @@ void DistributedMotion::extend(const Jet<3>& jet, const State<3>& y) {
     (extended_.*constants).resize(n);
     (extended_.*constants).segment(first_, own.size()) = (jet.*constants).segment(own.first, own.size());
   }
+  extended_.removed = pieces_.before(jet) + own.first - first_;
   extended_.held = jet.held && pieces_.has_youngest();
   const auto take_in = [&](int rank, int at) {
     if (rank < 0) return;

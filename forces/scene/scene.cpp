@@ -6,12 +6,15 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/jet/noise.hpp"
 #include "core/jet/schemes.hpp"
 #include "core/jet/stiffness.hpp"
 #include "forces/distributed/distributed_motion.hpp"
 #include "forces/scene/coulomb_settings.hpp"
+#include "forces/terms/air_drag.hpp"
 #include "forces/terms/constitutive.hpp"
 #include "forces/terms/coulomb_force.hpp"
+#include "forces/terms/random_force.hpp"
 #include "forces/terms/slender_self_field.hpp"
 #include "forces/terms/surface_energy.hpp"
 #include "forces/terms/surface_tension.hpp"
@@ -100,6 +103,8 @@ class Composer {
         p_.self_field == SelfField::slender && g_.Q != 0,
         g_.Q == 0 ? "density charge is 0" : "self field point",
         [&] { return std::make_unique<SlenderSelfField<D>>(g_.Q, section()); }, "slender self-field");
+    add_air();
+    add_noise();
     for (auto& force : own.forces) {
       composed.push_back({std::string(force->name()), "the caller's own"});
       terms_.push_back(std::move(force));
@@ -156,7 +161,7 @@ class Composer {
         : g_.Q == 0                              ? "no Coulomb sum"
         : in_pieces()                            ? "parallel distributed"
         : !smooth_stress()                       ? "the stress law has a kink or a jump at strain rate 0"
-        : stiffness(p_).relaxes_between_beads()  ? "stress relaxes within the interval of beads"
+        : stiffness(p_).relaxes_between_beads()  ? "stress or drag relaxes within the interval of beads"
         : !hasty.empty()                         ? hasty.c_str()
                                                  : nullptr;
     note(!why_not, "two rates", "multirate auto", why_not);
@@ -167,6 +172,31 @@ class Composer {
   Columns columns;
 
  private:
+  void add_air() {
+    const char* no_air = "no airdrag yes";
+    add(
+        in_air(p_), no_air, [&] { return std::make_unique<AirDrag<D>>(air(p_), section(), p_.drag_model); },
+        "air drag");
+    if constexpr (D == 3)
+      add(
+          lifts(p_), in_air(p_) ? "airdrag lift no" : no_air,
+          [&] { return std::make_unique<AirLift>(air(p_), section()); }, "air lift");
+    else
+      left_out.push_back({"air lift", "a straight jet (system 1) has no curvature"});
+  }
+
+  void add_noise() {
+    const Noise n = noise(p_);
+    const bool white = p_.integrator == Scheme::sra1;
+    add(
+        n.friction > 0, p_.noise ? "no noise variance" : "no noise yes",
+        [&] { return std::make_unique<Friction<D>>(n.friction); }, "friction");
+    add(
+        is_random(p_) && !white,
+        is_random(p_) ? "integrator sra1 has white noise" : "no noise yes, no airdrag amplitude",
+        [&] { return std::make_unique<RandomForce<D>>(n); }, "random force");
+  }
+
   Section section() const { return {p_.nozzle_cross / scales(p_).length, g_.L_step}; }
 
   /// A straight jet has no tree (core/deck/constraints.cpp).

@@ -39,7 +39,7 @@ class Integration {
   /// `stop_here` is asked between any two steps.
   Integration(const Parameters& p, const System<D>& system, std::vector<Observer<D>*> observers = {},
               std::function<bool()> stop_here = {})
-      : stepper_(stepper<D>(chosen_scheme(p))),
+      : stepper_(stepper<D>(p)),
         control_(step_control(p)),
         march({.jet = system.jet,
                .motion = system.right_hand_side,
@@ -47,7 +47,7 @@ class Integration {
                .control = *control_,
                .nozzle = system.nozzle,
                .collector = system.collector,
-               .events = p.events,
+               .events = event_rule(p),
                .norm = ErrorNorm(p, system.columns),
                .observers = std::move(observers),
                .stop_here = std::move(stop_here),

@@ -11,6 +11,7 @@
 #include "integrators/schemes/euler.hpp"
 #include "integrators/schemes/heun.hpp"
 #include "integrators/schemes/runge_kutta4.hpp"
+#include "integrators/schemes/sra1.hpp"
 
 namespace treejet {
 
@@ -25,10 +26,16 @@ std::unique_ptr<Stepper<D>> make() {
 }
 
 template <int D>
+std::unique_ptr<Stepper<D>> without_noise() {
+  return std::make_unique<Sra1<D>>(Noise{}, wiener_path(1));
+}
+
+template <int D>
 constexpr std::pair<Scheme, Maker<D>> makers[] = {
     {Scheme::euler, make<D, Euler<D>>},
     {Scheme::heun, make<D, Heun<D>>},
     {Scheme::rk4, make<D, RungeKutta4<D>>},
+    {Scheme::sra1, without_noise<D>},
     {Scheme::dopri5, make<D, EmbeddedRungeKutta<D, DormandPrince5>>},
     {Scheme::verner6, make<D, EmbeddedRungeKutta<D, Verner6>>},
     {Scheme::kencarp5, make<D, AdditiveRungeKutta<D, KennedyCarpenter5>>},
@@ -43,8 +50,17 @@ std::unique_ptr<Stepper<D>> stepper(Scheme scheme) {
   throw std::logic_error("no scheme chosen");
 }
 
+template <int D>
+std::unique_ptr<Stepper<D>> stepper(const Parameters& p) {
+  const Scheme scheme = chosen_scheme(p);
+  if (scheme == Scheme::sra1 && is_random(p)) return std::make_unique<Sra1<D>>(noise(p), wiener_path(p.seed));
+  return stepper<D>(scheme);
+}
+
 template std::unique_ptr<Stepper<1>> stepper<1>(Scheme);
 template std::unique_ptr<Stepper<3>> stepper<3>(Scheme);
+template std::unique_ptr<Stepper<1>> stepper<1>(const Parameters&);
+template std::unique_ptr<Stepper<3>> stepper<3>(const Parameters&);
 
 std::unique_ptr<StepControl> step_control(const Parameters& p) {
   const double time = scales(p).time;
@@ -55,7 +71,7 @@ std::unique_ptr<StepControl> step_control(const Parameters& p) {
 }
 
 std::string steps_description(const Parameters& p) {
-  const char* events = p.events == EventRule::located ? "events located" : "events seen at step ends";
+  const char* events = event_rule(p) == EventRule::located ? "events located" : "events seen at step ends";
   if (p.timestep) return fmt::format("fixed steps of {:g} s, {}", *p.timestep, events);
   const std::string reason = choice_reason(p);
   return fmt::format("steps by tolerance {:g}, {}{}{}", *p.tolerance, events, reason.empty() ? "" : "; ",

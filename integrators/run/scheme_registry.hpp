@@ -12,9 +12,14 @@
 
 namespace treejet {
 
-/// std::logic_error for `automatic`, which is no scheme before one is chosen.
+/// std::logic_error for `automatic`, which is no scheme before one is chosen. The stochastic scheme is one
+/// without noise.
 template <int D>
 std::unique_ptr<Stepper<D>> stepper(Scheme scheme);
+
+/// The deck's, with its noise.
+template <int D>
+std::unique_ptr<Stepper<D>> stepper(const Parameters& p);
 
 std::unique_ptr<StepControl> step_control(const Parameters& p);
 

@@ -238,8 +238,8 @@ TEST_CASE(
     "A feature that is switched off, or concerns files alone, is one note whatever the number of its lines",
     "[deck]") {
   for (const char* line :
-       {"multiple step no", "dynamic refinement no", "evaporation no", "kvfluid no", "airdrag no",
-        "restart no", "variable mass no", "dragvel yes", "noise no", "lorentz no", "mirror no",
+       {"multiple step no", "dynamic refinement no", "evaporation no", "kvfluid no",
+        "restart no", "variable mass no", "dragvel yes", "noise pool 10", "lorentz no", "mirror no",
         "job time 3600", "print binary 1.d-4 style 3", "printstat binary", "print pdb frame 1.d-3",
         "print xyz frame 1.d-2", "print rescalexyz", "cutoff points 1000"}) {
     INFO(line);
@@ -481,7 +481,9 @@ TEST_CASE("Each integrator answers to its number and its name", "[deck]") {
                                                                   {"2", Scheme::heun},
                                                                   {"heun", Scheme::heun},
                                                                   {"3", Scheme::rk4},
-                                                                  {"RK4", Scheme::rk4}})
+                                                                  {"RK4", Scheme::rk4},
+                                                                  {"4", Scheme::sra1},
+                                                                  {"sra1", Scheme::sra1}})
     CHECK(parse_deck(altered("integrator 2", "integrator " + word), name).parameters.integrator == scheme);
   for (const auto& [word, scheme] : std::map<std::string, Scheme>{{"auto", Scheme::automatic},
                                                                   {"dopri5", Scheme::dopri5},
@@ -567,6 +569,9 @@ TEST_CASE("What has no effect is noted, not refused", "[deck]") {
   for (const auto& [line, essential] :
        std::map<std::string, std::string>{{"seed 317", "jet.dat:20: seed 317: no effect"},
                                           {"perturb freq 1.d4", "no effect without perturb yes"},
+                                          {"airdrag airvelocity -1.d3", "no effect without airdrag yes"},
+                                          {"noise variance 1.", "no effect without noise yes"},
+                                          {"noise interval 1.d-6", "no effect: nothing here is random"},
                                           {"print xyz maxnum 400", "no effect without print xyz"}}) {
     const std::vector<std::string> notes = parse_deck(altered("", line), name).notes;
     REQUIRE(notes.size() == 1);

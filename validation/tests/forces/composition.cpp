@@ -47,7 +47,8 @@ TEST_CASE("The PVP jet is composed of every term") {
   const auto scene = compose<3>(example("pvp"), {1});
   CHECK(terms(scene) == Names{viscoelastic, field, gravity, tension, coulomb});
   CHECK(scene.motion->stress_law().name() == "Maxwell stress");
-  CHECK(named(scene.left_out) == Names{"Herschel-Bulkley stress", "slender self-field"});
+  CHECK(named(scene.left_out) == Names{"Herschel-Bulkley stress", "slender self-field", "air drag",
+                                       "air lift", "friction", "random force"});
 }
 
 TEST_CASE("The single bead has neither gravity nor surface tension, events or a circling nozzle") {
@@ -55,6 +56,7 @@ TEST_CASE("The single bead has neither gravity nor surface tension, events or a 
   CHECK(terms(scene) == Names{viscoelastic, field, coulomb});
   CHECK(named(scene.composed) == Names{"Maxwell stress", viscoelastic, field, coulomb});
   CHECK(named(scene.left_out) == Names{"Herschel-Bulkley stress", gravity, tension, "slender self-field",
+                                       "air drag", "air lift", "friction", "random force",
                                        "insertion at the nozzle", "removal at the collector",
                                        "circling nozzle", "two rates"});
   CHECK(reason(scene, gravity) == "no gravity yes");

@@ -41,8 +41,9 @@ const std::map<Scheme, std::vector<double>> steps{
     // first
     // term, 0.2 at the last halving), large enough to stay three digits above round-off
     {Scheme::euler, {1. / 400, 1. / 800, 1. / 1600}}, {Scheme::heun, {1. / 100, 1. / 200, 1. / 400}},
-    {Scheme::rk4, {1. / 50, 1. / 100, 1. / 200}},     {Scheme::dopri5, {1. / 40, 1. / 80, 1. / 160}},
-    {Scheme::verner6, {1. / 20, 1. / 40, 1. / 80}},   {Scheme::kencarp5, {1. / 40, 1. / 80, 1. / 160}}};
+    {Scheme::sra1, {1. / 100, 1. / 200, 1. / 400}},   {Scheme::rk4, {1. / 50, 1. / 100, 1. / 200}},
+    {Scheme::dopri5, {1. / 40, 1. / 80, 1. / 160}},   {Scheme::verner6, {1. / 20, 1. / 40, 1. / 80}},
+    {Scheme::kencarp5, {1. / 40, 1. / 80, 1. / 160}}};
 
 int nominal(Scheme scheme) {
   return stepper<1>(scheme)->order();
