@@ -103,6 +103,11 @@ std::vector<Case> cases() {
                        {near, "integrator 3", "timestep 1.d-6", "hbfluid yes", "hbfluid consistency 1.",
                         "hbfluid index 0.8"}),
           output_often("straight-jet", 2e-2, {"collector distance 1."}),
+          output_often("pvp", 2e-3,
+                       {near, "airdrag yes", "airdrag model full", "airdrag airvelocity -500.", "noise yes",
+                        "noise diffusivity 1.d6", "noise variance 1.d4"}),
+          output_often("pvp", 2e-3,
+                       {near, "system 4", "integrator 4", "timestep 1.d-6", "airdrag amplitude 1.d6"}),
           output_often("pvp", 4e-6, fixed_tree),
           output_often("pvp", 2e-4, two_rate_tree)};
 }

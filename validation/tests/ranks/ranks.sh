@@ -38,6 +38,11 @@ scene() {
 
 fixed='timestep 1.d-6
 integrator heun'
+noisy='airdrag yes
+airdrag model full
+airdrag airvelocity -200.
+noise yes
+noise diffusivity 1.d6'
 tree='coulomb tree
 coulomb accuracy 1.d-3'
 if [ "$extent" = all ]; then
@@ -63,6 +68,11 @@ $tree" 5x1 2x2
 $tree" 2x1 3x4
   scene "tolerance 1.d-6
 multirate no" 5x2
+  scene "tolerance 1.d-5
+$noisy" 3x2
+  scene "timestep 1.d-6
+integrator 4
+$noisy" 2x1
   scene "tolerance 1.d-6
 multirate no
 $tree
@@ -103,9 +113,10 @@ ends 2 "vectors" "ranks with different vectors" "$mpiexec" "$flag" 1 "$treejet" 
   "$flag" 1 env TREEJET_VECTOR_PATH=plain "$treejet" run "$pvp" --quiet --out wrong
 [ -e wrong ] && fail "ranks that could not begin left something behind"
 
-# a jet in pieces: the rows of the replicated one, but for the accuracy of the field
+# a noisy jet in pieces: the rows of the replicated one, but for the accuracy of the field
 run="$treejet run deck.dat --quiet --threads 1 --force"
-sed -i -e '/^coulomb/d' -e 's/ lp / /' deck.dat
+{ grep -v '^finish\|^coulomb' deck.dat | sed 's/ lp / /' && printf '%s\nfinish\n' "$noisy"; } >noisy.dat
+mv noisy.dat deck.dat
 grep -q '^multirate' deck.dat || sed -i 's/^finish/multirate no\nfinish/' deck.dat
 $run --out one || fail "the jet that is to be cut"
 sed -i 's/^finish/coulomb tree\ncoulomb accuracy 1.d-5\nparallel distributed\nfinish/' deck.dat
