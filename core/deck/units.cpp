@@ -70,6 +70,8 @@ constexpr Quantity quantities[] = {
     {{.length = 3}, "a volume", "mL"},
     {{.length = 1, .time = -1}, "a velocity", "mm/s, cm/s, m/s"},
     {{.length = 1, .time = -2}, "an acceleration", "m/s2"},
+    {{.length = 2, .time = -2}, "a squared velocity", "m2/s2, cm2/s2"},
+    {{.length = 2, .time = -3}, "a squared velocity over time", "m2/s3, cm2/s3"},
     {{.length = 2, .time = -1}, "a kinematic viscosity or diffusivity", "mm2/s, cm2/s"},
     {{.length = 3, .time = -1}, "a flow rate", "mL/h, uL/min"},
     {{-3, 1}, "a mass density", "kg/m3, g/cm3"},

@@ -26,10 +26,10 @@ Moments moments(const State<3>& y) {
   return {mean, (v - mean).square().sum() / double(v.size() - 1)};
 }
 
-/// So many free beads, all at the same velocity.
+/// So many free beads, all at the same velocity and too far apart to meet.
 Jet<3> free_beads(int n, double v) {
   Jet<3> jet;
-  for (int i = n; i >= 1; --i) append<3>(jet, {Vec<3>(i, 0, 0), Vec<3>(v, v, v)});
+  for (int i = n; i >= 1; --i) append<3>(jet, {Vec<3>(100 * i, 0, 0), Vec<3>(v, v, v)});
   return jet;
 }
 
