@@ -42,7 +42,8 @@ noisy='airdrag yes
 airdrag model full
 airdrag airvelocity -200.
 noise yes
-noise diffusivity 1.d6'
+noise diffusivity 1.d6
+noise interval 3.d-6'
 tree='coulomb tree
 coulomb accuracy 1.d-3'
 if [ "$extent" = all ]; then
