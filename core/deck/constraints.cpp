@@ -141,11 +141,47 @@ class Relations {
   }
 
   void fluid() {
+    using enum StressLawKind;
+    const StressLawKind law = stress_law(p_);
+    const bool of_jetspin = law == maxwell, yields = of_jetspin || law == herschel_bulkley;
+    const bool thins = p_.hbfluid || law == herschel_bulkley || law == power_law;
+    error(p_.kvfluid && is_given("stress law") && p_.stress_law != kelvin_voigt, {"kvfluid", "stress law"},
+          "expected stress law kelvin-voigt, which is the same, or none");
+    error(p_.hbfluid && !of_jetspin, {"hbfluid", "stress law", "kvfluid"},
+          "expected stress law maxwell, to which it adds; stress law herschel-bulkley is a law of its own");
+    error(p_.yield_stress > 0 && !yields, {"yield stress", "stress law", "kvfluid"},
+          "expected stress law maxwell or herschel-bulkley: the others do not yield");
     for (const char* detail : {"hbfluid consistency", "hbfluid index"}) {
       error(p_.hbfluid && !is_given(detail), {"hbfluid"},
             fmt::format("expected {} to be given, too", detail));
-      error(!p_.hbfluid && is_given(detail), {detail, "hbfluid"}, "expected hbfluid yes to be given, too");
+      error(thins && !p_.hbfluid && !is_given(detail), {"stress law"},
+            fmt::format("expected {} to be given, too", detail));
+      error(!thins && is_given(detail), {detail, "hbfluid"}, "expected hbfluid yes to be given, too");
     }
+    error(law == herschel_bulkley && p_.yield_stress == 0, {"stress law", "yield stress"},
+          "expected yield stress to be given, too; stress law power-law has none");
+    const auto belongs = [&](StressLawKind owner, const char* detail, const char* name) {
+      error(law == owner && !is_given(detail), {"stress law"},
+            fmt::format("expected {} to be given, too", detail));
+      error(law != owner && is_given(detail), {detail, "stress law"},
+            fmt::format("expected stress law {}", name));
+    };
+    belongs(giesekus, "stress law mobility", "giesekus");
+    belongs(fene_p, "stress law extensibility", "fene-p");
+    error(p_.solvent_viscosity > 0 && (law == kelvin_voigt || law == power_law),
+          {"solvent viscosity", "stress law", "kvfluid"},
+          "expected none: viscosity is all of the viscous stress of this stress law");
+    error(law == power_law && p_.nozzle_stress != 0, {"nozzle stress", "stress law"},
+          "expected none: the stress of a power-law fluid follows from its strain rate");
+    error(law == fene_p && p_.nozzle_stress != 0, {"nozzle stress", "stress law"},
+          "expected none: FENE-P dumbbells leave the nozzle at rest");
+    error(law == giesekus || law == oldroyd_b ? p_.nozzle_stress < -p_.elastic_modulus / 3 : false,
+          {"nozzle stress", "stress law"},
+          "expected at least minus a third of elastic modulus: less has no conformation");
+    note(is_given("small strain rate") && !p_.hbfluid && p_.yield_stress == 0 && law != power_law,
+         "small strain rate", "no effect without a yield stress, hbfluid yes or stress law power-law");
+    note(is_given("small strain rate") && law == herschel_bulkley, "small strain rate",
+         "no effect: in stress law herschel-bulkley no sign changes with the strain rate");
   }
 
   void output() {

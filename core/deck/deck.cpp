@@ -150,6 +150,7 @@ class Reader {
   void assign_value(Given& g) {
     if (std::holds_alternative<std::vector<std::string> Parameters::*>(g.directive->member))
       drop_foreign_keys(g);
+    later_jetspin_ |= g.directive->since_1_21;
     const std::string problem = assign(*g.directive, g.arguments, deck_.parameters);
     g.faulty = !problem.empty();
     if (g.faulty) return error(g.place, g.directive->words, "{}", problem);

@@ -16,6 +16,7 @@ using P = Parameters;
 constexpr Check positive{"positive", [](double v) { return v > 0; }};
 constexpr Check not_negative{"zero or positive", [](double v) { return v >= 0; }};
 constexpr Check below_one{"positive and below 1", [](double v) { return v > 0 && v < 1; }};
+constexpr Check up_to_one{"positive and at most 1", [](double v) { return v > 0 && v <= 1; }};
 constexpr Check one_or_three{"1 (straight jet) or 3 (three dimensions)",
                              [](double v) { return v == 1 || v == 3; }};
 constexpr Check a_count{"from 1 to 100000000", [](double v) { return v >= 1 && v <= 1e8; }};
@@ -73,14 +74,33 @@ const Directive table[] = {
     {.words = "surface tension model", .member = &P::surface_model,
      .meaning = "the paper's force on bends, too weak by element length over radius (paper), or the tension that "
                 "follows from the energy of the surface (energy)"},
+    {.words = "stress law", .member = &P::stress_law,
+     .meaning = "how stress follows strain: Maxwell's equation as in the paper, to which yield stress and hbfluid add as in "
+                "JETSPIN; kelvin-voigt; oldroyd-b (upper-convected Maxwell without solvent viscosity), giesekus and fene-p for "
+                "polymers that harden; power-law; herschel-bulkley, rigid but for its elasticity below the yield stress. "
+                "viscosity and elastic modulus are those of extension in all, three times those of shear",
+     .heading = "Fluid"},
+    {.words = "stress law mobility", .member = &P::mobility, .check = up_to_one,
+     .meaning = "mobility factor of Giesekus' law", .absent = "mandatory with stress law giesekus"},
+    {.words = "stress law extensibility", .member = &P::extensibility, .check = {"above 1.8", [](double v) { return v > 1.8; }},
+     .meaning = "greatest length of FENE-P's dumbbells, L, in units of a coil at rest whose length squared is 3",
+     .absent = "mandatory with stress law fene-p"},
+    {.words = "solvent viscosity", .member = &P::solvent_viscosity, .unit = "g/(cm s)", .check = not_negative,
+     .meaning = "elongational viscosity of the solvent, whose stress adds to that of the stress law"},
+    {.words = "kvfluid", .member = &P::kvfluid,
+     .meaning = "JETSPIN's words for stress law kelvin-voigt", .since_1_21 = true},
     {.words = "yield stress", .member = &P::yield_stress, .unit = "g/(cm s^2)", .check = not_negative,
-     .meaning = "yield stress, added to the viscous stress; acts without hbfluid yes, too"},
+     .meaning = "yield stress; in Maxwell's equation it adds to the viscous stress, without hbfluid yes, too"},
     {.words = "hbfluid", .member = &P::hbfluid,
-     .meaning = "Herschel-Bulkley fluid: needs consistency and index"},
+     .meaning = "Herschel-Bulkley fluid of JETSPIN: needs consistency and index"},
     {.words = "hbfluid consistency", .member = &P::hb_consistency, .check = positive,
-     .meaning = "its consistency, in units of the viscosity, strain rates in 1/s"},
+     .meaning = "consistency of a Herschel-Bulkley or power-law fluid, in units of the viscosity, strain rates in 1/s"},
     {.words = "hbfluid index", .member = &P::hb_index, .check = positive,
      .meaning = "its flow index"},
+    {.words = "small strain rate", .member = &P::small_strain_rate, .unit = "1/s", .check = positive,
+     .meaning = "strain rate over which the sign of a strain rate is rounded, in hbfluid, yield stress and stress law power-law; "
+                "elements that come to rest take steps as its root",
+     .absent = "a hundredth of elastic modulus / viscosity"},
 
     {.words = "nozzle cross", .member = &P::nozzle_cross, .unit = "cm", .check = positive,
      .meaning = "radius of the jet at the nozzle", .mandatory = true, .example = "5.d-3",

@@ -29,7 +29,8 @@ using Member =
                  std::optional<int> Parameters::*, bool Parameters::*, std::vector<std::string> Parameters::*,
                  Scheme Parameters::*, EventRule Parameters::*, Multirate Parameters::*, Units Parameters::*,
                  CoulombSum Parameters::*, TreeOrder Parameters::*, ExpansionKind Parameters::*,
-                 ParallelData Parameters::*, SelfField Parameters::*, SurfaceModel Parameters::*, Ignored>;
+                 ParallelData Parameters::*, SelfField Parameters::*, SurfaceModel Parameters::*,
+                 StressLawKind Parameters::*, EvaporationModel Parameters::*, SolventName Parameters::*, Ignored>;
 
 struct Directive {
   std::string_view words;
@@ -45,6 +46,7 @@ struct Directive {
       {};  ///< stands in the template; without it the template shows the default as a comment
   std::string_view synonyms = {};  ///< further spellings, separated by ", "
   std::string_view heading = {};   ///< opens a group of rows
+  bool since_1_21 = false;         ///< a word of JETSPIN that versions before 1.21 do not know
 };
 
 inline constexpr std::string_view last_directive = "finish";

@@ -23,8 +23,6 @@ const Foreign table[] = {
      "the full sum", "1000"},
     {"variable mass", "variable mass", "all beads are released with the same mass; leave the line out", "no"},
     {"variable charge", "variable charge", "all beads are released with the same charge; leave the line out", "no"},
-    {"kvfluid", "Kelvin-Voigt fluid",
-     "the fluid is Maxwell's, or Herschel-Bulkley's with hbfluid; leave the line out", "no", false, true},
     {"dynamic refinement", "refinement", "elements are not refined; choose a smaller resolution", "no"},
     {"restart", "restart", resumed, "no"},
     {"dragvel", "dragging velocity",

@@ -38,6 +38,20 @@ constexpr Word<ExpansionKind> expansions[] = {{"local", ExpansionKind::local}, {
 constexpr Word<ParallelData> parallel_data[] = {{"replicated", ParallelData::replicated},
                                                 {"distributed", ParallelData::distributed}};
 constexpr Word<SelfField> self_fields[] = {{"point", SelfField::point}, {"slender", SelfField::slender}};
+constexpr Word<StressLawKind> stress_laws[] = {{"maxwell", StressLawKind::maxwell},
+                                               {"kelvin-voigt", StressLawKind::kelvin_voigt},
+                                               {"oldroyd-b", StressLawKind::oldroyd_b},
+                                               {"giesekus", StressLawKind::giesekus},
+                                               {"fene-p", StressLawKind::fene_p},
+                                               {"power-law", StressLawKind::power_law},
+                                               {"herschel-bulkley", StressLawKind::herschel_bulkley}};
+constexpr Word<EvaporationModel> evaporation_models[] = {{"vapour", EvaporationModel::vapour},
+                                                         {"jetspin", EvaporationModel::jetspin}};
+constexpr Word<SolventName> solvents[] = {{"water", SolventName::water},
+                                      {"ethanol", SolventName::ethanol},
+                                      {"dmf", SolventName::dmf},
+                                      {"chloroform", SolventName::chloroform},
+                                      {"acetone", SolventName::acetone}};
 constexpr Word<SurfaceModel> surface_models[] = {{"paper", SurfaceModel::paper},
                                                  {"energy", SurfaceModel::energy}};
 
@@ -80,6 +94,15 @@ std::span<const Word<SelfField>> words_of(SelfField) {
 }
 std::span<const Word<SurfaceModel>> words_of(SurfaceModel) {
   return surface_models;
+}
+std::span<const Word<StressLawKind>> words_of(StressLawKind) {
+  return stress_laws;
+}
+std::span<const Word<EvaporationModel>> words_of(EvaporationModel) {
+  return evaporation_models;
+}
+std::span<const Word<SolventName>> words_of(SolventName) {
+  return solvents;
 }
 
 template <class T>

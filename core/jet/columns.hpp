@@ -17,6 +17,7 @@ struct Column {
   double scale = 1;     ///< what 1 is in that unit
   double at_birth = 0;  ///< scaled value that a bead leaves the nozzle with
   double small = 1;     ///< scaled size below which the error norm does not count relatively
+  double volume = 0;    ///< what 1 of it adds to volume and mass, in units of those at the nozzle
 };
 
 using Columns = std::vector<Column>;

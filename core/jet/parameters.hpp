@@ -19,6 +19,9 @@ enum class ExpansionKind { local, none };
 enum class SelfField { point, slender };
 enum class SurfaceModel { paper, energy };
 enum class ParallelData { replicated, distributed };
+enum class StressLawKind { maxwell, kelvin_voigt, oldroyd_b, giesekus, fene_p, power_law, herschel_bulkley };
+enum class EvaporationModel { vapour, jetspin };
+enum class SolventName { water, ethanol, dmf, chloroform, acetone };
 
 /// How the Coulomb sum is made; what is not given the program chooses.
 struct CoulombSetting {
@@ -57,10 +60,30 @@ struct Parameters : CoulombSetting {
   double surface_tension = 0;     ///< g/s^2
   SurfaceModel surface_model = SurfaceModel::paper;
   SelfField self_field = SelfField::point;
+
+  StressLawKind stress_law = StressLawKind::maxwell;
+  bool kvfluid = false;     ///< JETSPIN's words for Kelvin and Voigt's
   double yield_stress = 0;  ///< g/(cm s^2)
   bool hbfluid = false;
   double hb_consistency = 1;  ///< in units of the viscosity, strain rates in 1/s
   double hb_index = 1;
+  std::optional<double> small_strain_rate;  ///< 1/s
+  std::optional<double> mobility;           ///< of Giesekus' law
+  std::optional<double> extensibility;      ///< L of FENE-P
+  double solvent_viscosity = 0;             ///< g/(cm s)
+
+  bool evaporation = false;
+  EvaporationModel evaporation_model = EvaporationModel::vapour;
+  SolventName solvent = SolventName::water;
+  double polymer_fraction = 0.06;            ///< of the fluid as it leaves the nozzle
+  double temperature = 293.15;               ///< K
+  double humidity = 0;                       ///< relative
+  std::optional<double> vapour_density;      ///< saturated, g/cm^3
+  std::optional<double> vapour_diffusivity;  ///< cm^2/s
+  double air_viscosity = 0.151;              ///< kinematic, cm^2/s
+  double flory_chi = 0.5;
+  double viscosity_b = 7, viscosity_m = 0.1;  ///< mu = mu_0 10^(B (c^m - c_0^m))
+  double relaxation_t = 1;                    ///< theta = theta_0 (c/c_0)^t
 
   bool gravity = false;
   bool inserting = false;
@@ -83,6 +106,10 @@ struct Parameters : CoulombSetting {
 
   std::optional<double> checkpoint;  ///< s of wall-clock time
 };
+
+inline StressLawKind stress_law(const Parameters& p) {
+  return p.kvfluid ? StressLawKind::kelvin_voigt : p.stress_law;
+}
 
 /// The interval of the tables in s; without print time JETSPIN's 1000 steps, or a hundredth of the run.
 inline double print_interval(const Parameters& p) {

@@ -8,6 +8,7 @@
 
 #include "core/jet/scales.hpp"
 #include "core/jet/schemes.hpp"
+#include "core/jet/viscous_stress.hpp"
 
 namespace treejet {
 
@@ -24,8 +25,23 @@ double self_field_stiffness(const Parameters& p, const Scales& s) {
   return s.charge * s.charge / (s.l_step * s.l_step * s.l_step) * (2 * std::abs(g) + 4.5);
 }
 
+/// The slope of the stress at rest over the modulus, where a rounded sign makes it steeper.
+double steepness(const Parameters& p, const Scales& s) {
+  if (stress_law(p) != StressLawKind::maxwell || (p.yield_stress == 0 && !p.hbfluid)) return 1;
+  const double rate = small_strain_rate(p) * s.time;
+  return p.yield_stress / s.stress / rate + scaled_consistency(p) * std::pow(rate, p.hb_index - 1);
+}
+
+/// What is as viscous as this at the strain rates of the jet, or at rest.
+double viscous_damping(const Parameters& p, const Scales& s, double strain_rate) {
+  const ViscousStress viscous = viscous_stress(p);
+  const double slope = std::max(viscous.derivative(0), viscous.derivative(strain_rate * s.time));
+  return 4 * slope * p.viscosity / (p.density_mass * s.l_step * s.l_step);
+}
+
 double fastest_rate(const Parameters& p, const Scales& s) {
-  const double wave = 2 / s.l_step * std::sqrt(p.elastic_modulus / p.density_mass), damping = 1 / s.time;
+  const double stiff = std::max(steepness(p, s), 1.0) * p.elastic_modulus;
+  const double wave = 2 / s.l_step * std::sqrt(stiff / p.density_mass), damping = 1 / s.time;
   const double omega = std::sqrt(wave * wave + 4 * self_field_stiffness(p, s) / s.mass);
   const double overdamped = damping * damping - 4 * omega * omega;
   return overdamped > 0 ? (damping + std::sqrt(overdamped)) / 2 : omega;
@@ -50,7 +66,8 @@ Stiffness stiffness(const Parameters& p) {
                section = s.mass / p.density_mass / s.l_step;
   const double field_on_element = groups(p).V * s.mass * s.length / (s.time * s.time) / section;
   const double v = speed(p, s, section * charge_density * charge_density + field_on_element);
-  return {fastest_rate(p, s), s.time, std::min(s.l_step / std::max(v, p.nozzle_velocity), p.final_time)};
+  const double fastest = std::max(fastest_rate(p, s), viscous_damping(p, s, v / s.l_step));
+  return {fastest, s.time, std::min(s.l_step / std::max(v, p.nozzle_velocity), p.final_time)};
 }
 
 Scheme chosen_scheme(const Parameters& p) {

@@ -7,7 +7,8 @@
 /// fastest in the shortest elements, l = l_step, at the nozzle. Elastic (omega tau > 1/2), |lambda| = omega;
 /// viscous, |lambda| rises up to 1 / tau. With `self field slender` the charge q of a bead of mass m stiffens
 /// its element, at most by  dT/dl = q^2 / l^3 (2 |g| + 9/2)  (forces/terms/slender_self_field.hpp), and
-/// omega^2 grows by 4 dT/dl / m.
+/// omega^2 grows by 4 dT/dl / m. A viscous stress damps at up to 4 mu_s / (rho l^2); the rounded sign of a
+/// yield stress makes G steeper at rest. How a polymer hardens is not looked at.
 ///
 /// Accuracy asks for a few steps a bead. Beads follow each other at l_step / v, where inertia and the Maxwell
 /// stress balance what drives the jet, the repulsion of neighbours and the field on one element:

@@ -12,11 +12,18 @@
 #include "forces/scene/coulomb_settings.hpp"
 #include "forces/terms/constitutive.hpp"
 #include "forces/terms/coulomb_force.hpp"
+#include "forces/terms/laws/elastoviscoplastic.hpp"
+#include "forces/terms/laws/fene_p.hpp"
+#include "forces/terms/laws/giesekus.hpp"
+#include "forces/terms/laws/inelastic.hpp"
+#include "forces/terms/laws/kelvin_voigt.hpp"
+#include "forces/terms/laws/oldroyd_b.hpp"
 #include "forces/terms/slender_self_field.hpp"
 #include "forces/terms/surface_energy.hpp"
 #include "forces/terms/surface_tension.hpp"
 #include "forces/terms/uniform.hpp"
 #include "forces/terms/viscoelastic.hpp"
+#include "forces/terms/viscous_tension.hpp"
 
 namespace treejet {
 
@@ -64,21 +71,30 @@ class Composer {
   Composer(const Parameters& p, const Ranks& ranks) : p_(p), g_(groups(p)), ranks_(ranks) {}
 
   std::unique_ptr<StressLaw<D>> stress_law() {
-    const Scales s = scales(p_);
-    if (!p_.hbfluid && p_.yield_stress == 0) {
-      composed.push_back({"Maxwell stress", "always"});
+    using enum StressLawKind;
+    const StressLawKind kind = treejet::stress_law(p_);
+    const bool rounded = kind == maxwell && (p_.hbfluid || p_.yield_stress > 0);
+    auto law = rounded ? jetspin_herschel_bulkley() : stress_law_of(kind);
+    const char* why = kind != maxwell ? (p_.kvfluid ? "kvfluid yes" : "stress law")
+                      : !rounded      ? "always"
+                      : p_.hbfluid    ? "hbfluid yes"
+                                      : "yield stress";
+    composed.push_back({std::string(law->name()), why});
+    if (kind == maxwell && !rounded)
       left_out.push_back({"Herschel-Bulkley stress", "no hbfluid yes, no yield stress"});
-      return std::make_unique<Maxwell<D>>();
-    }
-    composed.push_back({"Herschel-Bulkley stress", p_.hbfluid ? "hbfluid yes" : "yield stress"});
-    const double K = p_.hb_consistency * std::pow(s.time, 1 - p_.hb_index);
-    return std::make_unique<HerschelBulkley<D>>(p_.yield_stress / s.stress, K, p_.hb_index);
+    columns = law->columns();
+    smooth_stress_ = law->extrapolates();
+    return law;
   }
 
   std::vector<std::unique_ptr<ForceTerm<D>>> local_terms(OwnTerms<D>& own) {
     add(
         true, "", [&] { return std::make_unique<Viscoelastic<D>>(g_.L_step, g_.F_ve); },
         "viscoelastic force");
+    const ViscousStress viscous = viscous_stress(p_);
+    add(
+        viscous.acts(), "no solvent viscosity",
+        [&] { return std::make_unique<ViscousTension<D>>(g_.L_step, g_.F_ve, viscous); }, "viscous tension");
     add(
         g_.V != 0, p_.density_charge == 0 ? "density charge is 0" : "external potential is 0",
         [&] { return std::make_unique<ElectricField<D>>(g_.V); }, "external field");
@@ -140,10 +156,6 @@ class Composer {
 
   bool in_pieces() const { return p_.parallel == ParallelData::distributed; }
 
-  /// Whether the stress law has all derivatives where an element turns from stretching to shrinking. A yield
-  /// stress jumps there and a power of the strain rate has a kink or a pole in a derivative.
-  bool smooth_stress() const { return p_.yield_stress == 0 && (!p_.hbfluid || p_.hb_index == 1); }
-
   /// Multirate needs an error to hold, a sum over all pairs to take apart, and slopes that a parabola can
   /// continue in time.
   bool multirate() {
@@ -155,7 +167,7 @@ class Composer {
         : properties(chosen_scheme(p_)).implicit ? "a scheme that solves for the local terms"
         : g_.Q == 0                              ? "no Coulomb sum"
         : in_pieces()                            ? "parallel distributed"
-        : !smooth_stress()                       ? "the stress law has a kink or a jump at strain rate 0"
+        : !smooth_stress_                        ? "the stress law has a kink or all but a jump"
         : stiffness(p_).relaxes_between_beads()  ? "stress relaxes within the interval of beads"
         : !hasty.empty()                         ? hasty.c_str()
                                                  : nullptr;
@@ -167,6 +179,38 @@ class Composer {
   Columns columns;
 
  private:
+  std::unique_ptr<StressLaw<D>> stress_law_of(StressLawKind kind) const {
+    switch (kind) {
+      case StressLawKind::maxwell:
+        return std::make_unique<Maxwell<D>>();
+      case StressLawKind::kelvin_voigt:
+        return element_law(KelvinVoigt{});
+      case StressLawKind::oldroyd_b:
+        return element_law(OldroydB{});
+      case StressLawKind::giesekus:
+        return element_law(Giesekus{p_.mobility.value()});
+      case StressLawKind::fene_p:
+        return element_law(FeneP::of_length(p_.extensibility.value()));
+      case StressLawKind::power_law:
+        return element_law(Inelastic{});
+      case StressLawKind::herschel_bulkley:
+        return element_law(
+            Elastoviscoplastic{p_.yield_stress / scales(p_).stress, scaled_consistency(p_), p_.hb_index});
+    }
+    throw std::logic_error("no such stress law");
+  }
+
+  template <class Law>
+  static std::unique_ptr<StressLaw<D>> element_law(const Law& law) {
+    return std::make_unique<ElementLaw<D, Law>>(law);
+  }
+
+  std::unique_ptr<StressLaw<D>> jetspin_herschel_bulkley() const {
+    const Scales s = scales(p_);
+    return std::make_unique<HerschelBulkley<D>>(p_.yield_stress / s.stress, scaled_consistency(p_),
+                                                p_.hb_index, small_strain_rate(p_) * s.time);
+  }
+
   Section section() const { return {p_.nozzle_cross / scales(p_).length, g_.L_step}; }
 
   /// A straight jet has no tree (core/deck/constraints.cpp).
@@ -194,6 +238,7 @@ class Composer {
   const Ranks& ranks_;
   std::vector<std::unique_ptr<ForceTerm<D>>> terms_;
   std::string hasty_;  ///< a term whose force multirate may not extrapolate
+  bool smooth_stress_ = true;
 };
 
 std::vector<int> whole_jet(const Parameters& p) {

@@ -1,10 +1,18 @@
 #pragma once
-/// Constitutive equations of an element, scaled (stress by G, time by mu / G):
-///     Maxwell             d sigma/dt = rate - sigma
-///     Herschel-Bulkley    d sigma/dt = sgn(rate) ( sigma_Y + K |rate|^nu ) - sigma
-/// with rate = (1/l) dl/dt. JETSPIN leaves the sign out: for an element that shortens it gives NaN (nu not an
-/// integer) or stress that grows; and its yield stress acts on elements at rest. For elements that stretch
-/// both agree. Source: paper, constitutive equation; the Herschel-Bulkley options are JETSPIN's.
+/// The paper's constitutive equation of an element, scaled (stress by G, time by mu / G), and JETSPIN's
+/// options:
+///
+///     Maxwell             d sigma/dt = r - sigma
+///     Herschel-Bulkley    d sigma/dt = ( sigma_Y + K e^n ) r / e - sigma ,      e = sqrt(r^2 + r_0^2)
+///
+/// with r = (1/l) dl/dt. JETSPIN has e = r, so that an element that shortens gets NaN (n not an integer) or
+/// stress that grows, and one at rest yields. With e = |r| the first would be right, but an element that
+/// comes to rest swings ever faster through r = 0, and no error estimate sees the jump of its stress rate
+/// there: e rounds it over the strain rate r_0. Where an element stretches at r >> r_0 all agree, to r_0^2 /
+/// (2 r^2) of the yield stress. Source: paper, constitutive equation; the rounding: Bercovier and Engelman,
+/// J. Comput. Phys. 36 (1980) 313.
+///
+/// Other fluids stand in forces/terms/laws.
 
 #include <cmath>
 
@@ -16,33 +24,44 @@ template <int D>
 class Maxwell final : public StressLaw<D> {
  public:
   std::string_view name() const override { return "Maxwell stress"; }
-  void set(const Chain<D>& c, Rows rows, Eigen::Ref<Eigen::ArrayXd> rate) const override {
+  void set(const Chain<D>& c, Rows rows, State<D>& slope) const override {
     const int i = rows.first, n = rows.size();
-    rate.segment(i, n) = c.strain_rate.segment(i, n) - c.stress.segment(i, n);
+    slope.col(stress_column<D>).segment(i, n) = c.strain_rate.segment(i, n) - c.stress.segment(i, n);
   }
-  double by_strain_rate(const Chain<D>&, int) const override { return 1; }
+  StressDerivative derivative(const Chain<D>&, int) const override {
+    StressDerivative d;
+    d.by_strain_rate[0] = 1;
+    d.by_state(0, 0) = -1;
+    return d;
+  }
 };
 
 template <int D>
 class HerschelBulkley final : public StressLaw<D> {
  public:
-  HerschelBulkley(double yield, double K, double index) : yield_(yield), K_(K), index_(index) {}
+  /// small_rate: r_0, above 0.
+  HerschelBulkley(double yield, double K, double index, double small_rate)
+      : yield_(yield), K_(K), index_(index), small_rate_(small_rate) {}
   std::string_view name() const override { return "Herschel-Bulkley stress"; }
-  void set(const Chain<D>& c, Rows rows, Eigen::Ref<Eigen::ArrayXd> rate) const override {
+  bool extrapolates() const override { return yield_ == 0 && index_ == 1; }
+
+  void set(const Chain<D>& c, Rows rows, State<D>& slope) const override {
     for (int i = rows.first; i < rows.last; ++i) {
-      const double strain_rate = c.strain_rate[i];
-      const double viscous = strain_rate == 0 ? 0 : yield_ + K_ * std::pow(std::abs(strain_rate), index_);
-      rate[i] = std::copysign(viscous, strain_rate) - c.stress[i];
+      const double r = c.strain_rate[i], e = std::hypot(r, small_rate_);
+      slope(i, stress_column<D>) = (yield_ + K_ * std::pow(e, index_)) * (r / e) - c.stress[i];
     }
   }
-  /// Infinite at rest for a fluid that thins with the strain rate: there 1 stands in.
-  double by_strain_rate(const Chain<D>& c, int element) const override {
-    const double slope = K_ * index_ * std::pow(std::abs(c.strain_rate[element]), index_ - 1);
-    return std::isfinite(slope) ? slope : 1;
+  StressDerivative derivative(const Chain<D>& c, int element) const override {
+    const double r = c.strain_rate[element], e = std::hypot(r, small_rate_), part = small_rate_ / e;
+    StressDerivative d;
+    d.by_strain_rate[0] =
+        yield_ / e * part * part + K_ * std::pow(e, index_ - 1) * (1 + (index_ - 1) * (r / e) * (r / e));
+    d.by_state(0, 0) = -1;
+    return d;
   }
 
  private:
-  double yield_, K_, index_;
+  double yield_, K_, index_, small_rate_;
 };
 
 }  // namespace treejet

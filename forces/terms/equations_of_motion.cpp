@@ -14,6 +14,7 @@ EquationsOfMotion<D>::EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<Stress
                                         std::unique_ptr<CoulombForce<D>> coulomb, Threads threads)
     : nozzle_(std::move(nozzle)),
       stress_law_(std::move(stress_law)),
+      law_columns_(static_cast<int>(stress_law_->columns().size())),
       local_terms_(std::move(local_terms)),
       coulomb_(std::move(coulomb)),
       threads_(threads) {}
@@ -29,6 +30,7 @@ void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const State<D
   for_each_block(threads, {0, n}, block, [&](Rows rows) {
     set_points<D>(chain_, jet, y, {rows.first, rows.last});
     set_elements<D>(chain_, jet, y, {rows.first, rows.last});
+    amend(rows);
   });
   if (coulomb_) coulomb_->prepare(chain_, {0, n}, threads);
   prepare(chain_, {0, n}, threads);
@@ -47,20 +49,27 @@ void EquationsOfMotion<D>::differentiate(const Jet<D>& jet, double t, const Stat
   set_boundary<D>(chain_, jet, nozzle_, t, y);
   set_points<D>(chain_, jet, y, {0, n});
   set_elements<D>(chain_, jet, y, {0, n});
+  amend({0, n});
   J.element.assign(static_cast<std::size_t>(n), {});
   J.acceleration_by_v.clear();
+  J.law_column = law_columns_ > 0;
   J.inverse_mass = chain_.inverse_mass;
   for (int i = 0; i < n; ++i) {
     const Vec<D> tangent = chain_.tangent.row(i).matrix().transpose();
-    const double inverse = chain_.inverse_length[i], law = stress_law_->by_strain_rate(chain_, i);
+    const double inverse = chain_.inverse_length[i];
     auto& e = J.element[static_cast<std::size_t>(i)];
-    e.rate_by_w = law * inverse * tangent;
-    e.rate_by_d =
-        law * inverse *
-        (inverse * (chain_.velocity(i) - chain_.velocity_above(i)) - 2 * chain_.strain_rate[i] * tangent);
-    e.rate_by_stress = -1;
+    e.rate_by_w = inverse * tangent;
+    e.rate_by_d = inverse * (inverse * (chain_.velocity(i) - chain_.velocity_above(i)) -
+                             2 * chain_.strain_rate[i] * tangent);
+    e.stress = stress_law_->derivative(chain_, i);
   }
   for (const auto& term : local_terms_) term->differentiate(chain_, J);
+}
+
+template <int D>
+void EquationsOfMotion<D>::amend(Rows rows) {
+  for (std::size_t k = 0; k < column_rates_.size(); ++k)
+    column_rates_[k]->amend(chain_, law_columns_ + static_cast<int>(k), rows);
 }
 
 template <int D>
@@ -74,9 +83,9 @@ void EquationsOfMotion<D>::set_local(const Chain<D>& chain, Rows rows, State<D>&
   slope.middleRows(i, n).template leftCols<D>() =
       chain.state->middleRows(i, n).template middleCols<D>(velocity_column<D>);
   slope.middleRows(i, n).template middleCols<D>(velocity_column<D>).setZero();
-  stress_law_->set(chain, rows, slope.col(stress_column<D>));
+  stress_law_->set(chain, rows, slope);
   for (std::size_t k = 0; k < column_rates_.size(); ++k) {
-    const int added = static_cast<int>(k);
+    const int added = law_columns_ + static_cast<int>(k);
     column_rates_[k]->set(chain, added, rows, slope.col(own_columns<D> + added));
   }
   Acceleration<D> acceleration = slope.template middleCols<D>(velocity_column<D>);

@@ -49,7 +49,7 @@ class EquationsOfMotion final : public RightHandSide<D> {
   void prepare(const Chain<D>& chain, Rows rows, Threads threads);
   void set_local(const Chain<D>& chain, Rows rows, State<D>& slope) const;
 
-  /// Adds the rate of the next column that the scene adds to the state.
+  /// Adds the rate of the next column that the scene adds to the state, behind that of the stress law.
   void add_column(std::unique_ptr<ColumnRate<D>> rate) { column_rates_.push_back(std::move(rate)); }
 
   /// The Coulomb force, null in a scene without charge, and the chain, both as the last evaluation left them.
@@ -61,8 +61,11 @@ class EquationsOfMotion final : public RightHandSide<D> {
   const std::vector<std::unique_ptr<ForceTerm<D>>>& local_terms() const { return local_terms_; }
 
  private:
+  void amend(Rows rows);
+
   Nozzle<D> nozzle_;
   std::unique_ptr<StressLaw<D>> stress_law_;
+  int law_columns_;
   std::vector<std::unique_ptr<ForceTerm<D>>> local_terms_;
   std::vector<std::unique_ptr<ColumnRate<D>>> column_rates_;
   std::unique_ptr<CoulombForce<D>> coulomb_;

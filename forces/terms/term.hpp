@@ -56,16 +56,19 @@ class ForceTerm {
   virtual void differentiate(const Chain<D>&, LocalJacobian<D>&) const {}
 };
 
-/// The constitutive equation: the rate of the stress of the elements in `rows`.
+/// The constitutive equation: the rates of the stress of the elements in `rows`, and of the column that a law
+/// may keep beside it, which is the first of the added ones.
 template <int D>
 class StressLaw {
  public:
   virtual ~StressLaw() = default;
   virtual std::string_view name() const = 0;
-  virtual void set(const Chain<D>& chain, Rows rows, Eigen::Ref<Eigen::ArrayXd> rate) const = 0;
+  virtual Columns columns() const { return {}; }
+  virtual void set(const Chain<D>& chain, Rows rows, State<D>& slope) const = 0;
+  virtual StressDerivative derivative(const Chain<D>& chain, int element) const = 0;
 
-  /// The derivative of the rate of stress by the strain rate; that by the stress is -1 in every law here.
-  virtual double by_strain_rate(const Chain<D>& chain, int element) const = 0;
+  /// As of a force term.
+  virtual bool extrapolates() const { return true; }
 };
 
 /// The rate of a column that a scene adds to the state of its beads (core/jet/columns.hpp). Its stencil is
@@ -75,6 +78,9 @@ class ColumnRate {
  public:
   virtual ~ColumnRate() = default;
   virtual Column column() const = 0;
+  /// Changes the volumes of elements and the masses of beads in `rows` as the column asks for, before any
+  /// force is evaluated.
+  virtual void amend(Chain<D>&, int /*added*/, Rows) const {}
   /// `added`: the place of the column among the added ones.
   virtual void set(const Chain<D>& chain, int added, Rows rows, Eigen::Ref<Eigen::ArrayXd> rate) const = 0;
 };

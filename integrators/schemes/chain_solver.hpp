@@ -1,12 +1,12 @@
 #pragma once
 /// Solves (1 - s J) u = g for a table u, J the local Jacobian of a chain (core/jet/local_jacobian.hpp).
 ///
-/// Position and stress of a bead answer to velocities only, so both are eliminated by hand. With
-/// [u] = u_i - u_up, p = 1 / (1 - s rate_by_stress) and tau_i the tension's answer to the known part,
+/// Position and state of an element answer to velocities only, so both are eliminated by hand. With [u] = u_i
+/// - u_up, P = (1 - s by_state)^-1, q = s P by_strain_rate and tau_i the tension's answer to the known part,
 ///
 ///     u_r = g_r + s u_v ,
-///     u_sigma = p (g_sigma + s rate_by_d . [g_r]) + p s (s rate_by_d + rate_by_w) . [u_v] ,
-///     E_i = s tension_by_d + tension_by_stress (p s (s rate_by_d + rate_by_w))' ,
+///     u_z = P g_z + q rate_by_d . [g_r] + q (s rate_by_d + rate_by_w) . [u_v] ,
+///     E_i = s tension_by_d + tension_by_w + tension_by_stress (q_sigma (s rate_by_d + rate_by_w))' ,
 ///     (m_i - s m_i acceleration_by_v_i) u_v,i + s E_i [u_v]_i - s E_{i-1} [u_v]_{i-1}
 ///         = m_i g_v,i - s tau_i + s tau_{i-1} .
 ///
@@ -26,14 +26,16 @@ class ChainSolver {
     s_ = s;
     const std::size_t n = J.element.size();
     velocities_.row.resize(n);
-    p_.resize(n);
-    stress_by_w_.resize(n);
+    eliminated_.resize(n);
     Block E_below = Block::Zero();
     for (std::size_t i = 0; i < n; ++i) {
       const auto& e = J.element[i];
-      p_[i] = 1 / (1 - s * e.rate_by_stress);
-      stress_by_w_[i] = p_[i] * s * (s * e.rate_by_d + e.rate_by_w);
-      const Block E = s * e.tension_by_d + e.tension_by_stress * stress_by_w_[i].transpose();
+      Eliminated& z = eliminated_[i];
+      z.P = (Eigen::Matrix2d::Identity() - s * e.stress.by_state).inverse();
+      z.q = s * z.P * e.stress.by_strain_rate;
+      z.rate_by_u = s * e.rate_by_d + e.rate_by_w;
+      const Block E =
+          s * e.tension_by_d + e.tension_by_w + e.tension_by_stress * (z.q[0] * z.rate_by_u).transpose();
       const double per_mass = s * J.inverse_mass[static_cast<Eigen::Index>(i)];
       velocities_.row[i].below = -per_mass * E_below;
       velocities_.row[i].diagonal = Block::Identity() + per_mass * (E + E_below);
@@ -52,18 +54,21 @@ class ChainSolver {
     for (std::size_t i = 0; i < n; ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       const auto& e = J_->element[i];
+      const Eliminated& z = eliminated_[i];
       Vec<D> d = position<D>(g, row);
       if (i + 1 < n) d -= position<D>(g, row + 1);
-      double& stress = g(row, stress_column<D>);
-      stress = p_[i] * (stress + s_ * e.rate_by_d.dot(d));
-      const Vec<D> tau = e.tension_by_d * d + e.tension_by_stress * stress;
+      const Eigen::Vector2d known = z.P * element_state(g, row) + z.q * e.rate_by_d.dot(d);
+      set_element_state(g, row, known);
+      const Vec<D> tau = e.tension_by_d * d + e.tension_by_stress * known[0];
       v_[i] = velocity<D>(g, row) + s_ * J_->inverse_mass[row] * (tau_below - tau);
       tau_below = tau;
     }
     velocities_.solve(v_);
     for (std::size_t i = 0; i < n; ++i) {
       const auto row = static_cast<Eigen::Index>(i);
-      g(row, stress_column<D>) += stress_by_w_[i].dot(i + 1 < n ? Vec<D>(v_[i] - v_[i + 1]) : v_[i]);
+      const Eliminated& z = eliminated_[i];
+      const double rate = z.rate_by_u.dot(i + 1 < n ? Vec<D>(v_[i] - v_[i + 1]) : v_[i]);
+      set_element_state(g, row, element_state(g, row) + z.q * rate);
       g.row(row).template head<D>() += s_ * v_[i].transpose().array();
       g.row(row).template segment<D>(D) = v_[i].transpose().array();
     }
@@ -72,11 +77,25 @@ class ChainSolver {
  private:
   using Block = Eigen::Matrix<double, D, D>;
 
+  struct Eliminated {
+    Eigen::Matrix2d P;
+    Eigen::Vector2d q;
+    Vec<D> rate_by_u;
+  };
+
+  Eigen::Vector2d element_state(const State<D>& g, Eigen::Index row) const {
+    return {g(row, stress_column<D>), J_->law_column ? g(row, own_columns<D>) : 0.};
+  }
+  void set_element_state(State<D>& g, Eigen::Index row, const Eigen::Vector2d& z) const {
+    g(row, stress_column<D>) = z[0];
+    if (J_->law_column) g(row, own_columns<D>) = z[1];
+  }
+
   const LocalJacobian<D>* J_ = nullptr;
   double s_ = 0;
   BlockTridiagonal<D> velocities_;
-  std::vector<double> p_;
-  std::vector<Vec<D>> stress_by_w_, v_;
+  std::vector<Eliminated> eliminated_;
+  std::vector<Vec<D>> v_;
 };
 
 }  // namespace treejet

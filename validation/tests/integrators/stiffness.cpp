@@ -5,8 +5,15 @@
 #include <random>
 
 #include "core/jet/stiffness.hpp"
+#include "forces/terms/laws/elastoviscoplastic.hpp"
+#include "forces/terms/laws/fene_p.hpp"
+#include "forces/terms/laws/giesekus.hpp"
+#include "forces/terms/laws/inelastic.hpp"
+#include "forces/terms/laws/kelvin_voigt.hpp"
+#include "forces/terms/laws/oldroyd_b.hpp"
 #include "forces/terms/surface_tension.hpp"
 #include "forces/terms/viscoelastic.hpp"
+#include "forces/terms/viscous_tension.hpp"
 #include "integrators/schemes/additive.hpp"
 #include "integrators/schemes/block_tridiagonal.hpp"
 #include "integrators/schemes/chain_solver.hpp"
@@ -101,7 +108,7 @@ Eigen::MatrixXd as_solved(RightHandSide<D>& f, const Jet<D>& jet, double s) {
   const Eigen::Index m = jet.y.size();
   Eigen::MatrixXd inverse(m, m);
   for (Eigen::Index k = 0; k < m; ++k) {
-    State<D> unit = State<D>::Zero(jet.size(), 2 * D + 1);
+    State<D> unit = State<D>::Zero(jet.size(), jet.y.cols());
     unit.data()[k] = 1;
     solver.solve(unit);
     inverse.col(k) = flat<D>(unit);
@@ -113,10 +120,14 @@ template <int D>
 void check_jacobian(std::unique_ptr<StressLaw<D>> law) {
   std::vector<std::unique_ptr<ForceTerm<D>>> terms;
   terms.push_back(std::make_unique<Viscoelastic<D>>(1, 3));
+  terms.push_back(std::make_unique<ViscousTension<D>>(1, 3, ViscousStress{0.8, 0.6, 0.05}));
+  const auto columns = static_cast<Eigen::Index>(law->columns().size());
   EquationsOfMotion<D> f(Nozzle<D>(circling_nozzle()), std::move(law), std::move(terms), nullptr, Threads{1});
   for (int n : {1, 2, 7}) {
     for (bool held : {false, true}) {
       Jet<D> jet = crooked_jet<D>(n, 3);
+      jet.y.conservativeResize(Eigen::NoChange, own_columns<D> + columns);
+      for (Eigen::Index k = 0; k < columns; ++k) jet.y.col(own_columns<D> + k).setLinSpaced(-0.6, 0.4);
       jet.held = held;
       const Eigen::MatrixXd J = by_differences<D>(f, jet);
       CAPTURE(D, n, held);
@@ -152,8 +163,21 @@ TEST_CASE("The local Jacobian of Maxwell chains is the derivative of their slope
 }
 
 TEST_CASE("The local Jacobian of Herschel-Bulkley chains is the derivative of their slope") {
-  check_jacobian<1>(std::make_unique<HerschelBulkley<1>>(0.2, 1.3, 0.7));
-  check_jacobian<3>(std::make_unique<HerschelBulkley<3>>(0.2, 1.3, 1.6));
+  check_jacobian<1>(std::make_unique<HerschelBulkley<1>>(0.2, 1.3, 0.7, 0.1));
+  check_jacobian<3>(std::make_unique<HerschelBulkley<3>>(0.2, 1.3, 1.6, 0.1));
+}
+
+TEST_CASE("The local Jacobian of a chain under any other stress law is the derivative of its slope") {
+  const auto check = []<class Law>(const Law& law) {
+    check_jacobian<1>(std::make_unique<ElementLaw<1, Law>>(law));
+    check_jacobian<3>(std::make_unique<ElementLaw<3, Law>>(law));
+  };
+  check(KelvinVoigt());
+  check(Inelastic());
+  check(OldroydB());
+  check(Giesekus{0.3});
+  check(FeneP::of_length(5));
+  check(Elastoviscoplastic{0.2, 1.3, 0.7});
 }
 
 TEST_CASE("The additive tableaux share abscissae and weights, and meet the conditions of order 5 and 4") {
