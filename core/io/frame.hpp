@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/jet/columns.hpp"
+#include "core/jet/material.hpp"
 #include "core/jet/nozzle.hpp"
 #include "core/jet/scales.hpp"
 
@@ -55,7 +56,8 @@ struct Row {
 
 template <int D>
 Frame frame(const Jet<D>& jet, const Nozzle<D>& nozzle, const Scales& scales, double nozzle_radius,
-            const Columns& added = {}) {
+            const Material& material = {}) {
+  const Columns& added = material.added;
   Frame f;
   f.time = jet.t * scales.time;
   std::vector<double> position, velocity, stress, charge, mass, radius;
@@ -69,10 +71,11 @@ Frame frame(const Jet<D>& jet, const Nozzle<D>& nozzle, const Scales& scales, do
     f.id.push_back(jet.removed + i + 1);
     add(position, r, scales.length);
     add(velocity, treejet::velocity<D>(jet.y, i), scales.velocity);
-    stress.push_back(jet.y(i, stress_column<D>) * scales.stress);
+    stress.push_back(material.stress<D>(jet, nozzle, i) * scales.stress);
     charge.push_back(jet.charge[i] * scales.charge);
-    mass.push_back(jet.mass[i] * scales.mass);
-    radius.push_back(nozzle_radius * std::sqrt(jet.volume[i] * nozzle.l_step() / (r - upper).norm()));
+    const double left = material.remaining<D>(jet.y, i);
+    mass.push_back(jet.mass[i] * left * scales.mass);
+    radius.push_back(nozzle_radius * std::sqrt(jet.volume[i] * left * nozzle.l_step() / (r - upper).norm()));
   }
   f.id.push_back(0);
   add(position, end, scales.length);

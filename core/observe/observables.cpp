@@ -21,6 +21,11 @@ double component(const State<D>& y, int column, int k) {
 }
 
 template <int D>
+double stress(const View<D>& v) {
+  return v.jet.size() > 0 ? v.material.template stress<D>(v.jet, v.nozzle, 0) : none;
+}
+
+template <int D>
 double off_axis(const Jet<D>& jet) {
   return std::hypot(component<D>(jet.y, 0, 1), component<D>(jet.y, 0, 2));
 }
@@ -59,8 +64,8 @@ void add_state(Entries<D>& o) {
     o[u[k]] = [k](auto& v) { return component<D>(v.jet.y, D, k) * v.scales.velocity; };
     o[us[k]] = [k](auto& v) { return component<D>(v.jet.y, D, k); };
   }
-  o["st"] = [](auto& v) { return component<D>(v.jet.y, stress_column<D>, 0) * v.scales.stress; };
-  o["sts"] = [](auto& v) { return component<D>(v.jet.y, stress_column<D>, 0); };
+  o["st"] = [](auto& v) { return stress(v) * v.scales.stress; };
+  o["sts"] = [](auto& v) { return stress(v); };
   o["yz"] = [](auto& v) { return off_axis<D>(v.jet) * v.scales.length; };
   o["yzs"] = [](auto& v) { return off_axis<D>(v.jet); };
   o["angl"] = [](auto& v) {

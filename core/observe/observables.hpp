@@ -25,6 +25,7 @@ struct View {
   double fed = 0, landed = 0;                ///< scaled charge that passed nozzle and collector in the window
   Timing timing = {};
   const FieldErrorReport* force_error = nullptr;  ///< null: exact forces
+  Material material = {};
 };
 
 template <int D>

@@ -18,7 +18,7 @@ class Hdf5Trajectory final : public Sampling<D> {
     Scales scales;
     double nozzle_radius;  ///< cm
     double interval;       ///< scaled
-    Columns added = {};    ///< of the scene
+    Material material = {};
   };
 
   Hdf5Trajectory(const Setting& setting, std::shared_ptr<H5mdTrajectory> file)
@@ -39,7 +39,7 @@ class Hdf5Trajectory final : public Sampling<D> {
 
  protected:
   void sample(const Jet<D>& jet) override {
-    file_->append(frame<D>(jet, setting_.nozzle, setting_.scales, setting_.nozzle_radius, setting_.added));
+    file_->append(frame<D>(jet, setting_.nozzle, setting_.scales, setting_.nozzle_radius, setting_.material));
   }
 
  private:

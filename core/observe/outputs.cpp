@@ -15,13 +15,17 @@ namespace treejet {
 
 namespace {
 
+Material material(const Parameters& p, const OutputSetting& setting) {
+  return {viscous_stress(p), setting.added};
+}
+
 template <int D>
 std::unique_ptr<Recorder<D>> recorder(const Parameters& p, const Nozzle<D>& nozzle,
-                                      const Collector& collector, const FieldErrorReport* force_error) {
+                                      const Collector& collector, const OutputSetting& setting) {
   const Scales s = scales(p);
-  return std::make_unique<Recorder<D>>(
-      typename Recorder<D>::Setting{nozzle, collector, s, p.nozzle_cross, p.collector_distance,
-                                    print_interval(p) / s.time, p.final_time / s.time, force_error});
+  return std::make_unique<Recorder<D>>(typename Recorder<D>::Setting{
+      nozzle, collector, s, p.nozzle_cross, p.collector_distance, print_interval(p) / s.time,
+      p.final_time / s.time, setting.force_error, material(p, setting)});
 }
 
 /// The rows of traj.h5: the time, and what else `print list` asks for.
@@ -92,7 +96,7 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
   };
   const std::shared_ptr<H5mdTrajectory> hdf5 = p.print_hdf5 ? trajectory_file(p, setting, own) : nullptr;
   if (makes_rows(p, setting)) {
-    auto rows = recorder<D>(p, nozzle, collector, setting.force_error);
+    auto rows = recorder<D>(p, nozzle, collector, setting);
     rows->add(p.print_list,
               makes_table(p, setting) ? std::make_unique<TerminalTable>(labels(p.print_list, own)) : nullptr,
               own);
@@ -115,7 +119,8 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
   }
   if (hdf5) {
     using Frames = Hdf5Trajectory<D>;
-    const typename Frames::Setting frames{nozzle, s, p.nozzle_cross, *p.print_hdf5 / s.time, setting.added};
+    const typename Frames::Setting frames{nozzle, s, p.nozzle_cross, *p.print_hdf5 / s.time,
+                                          material(p, setting)};
     watch("traj.h5", std::make_unique<Frames>(frames, hdf5), decomposition);
   }
   if (!files_.empty()) keep_record(setting);

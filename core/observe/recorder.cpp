@@ -8,7 +8,9 @@ namespace treejet {
 
 template <int D>
 Recorder<D>::Recorder(const Setting& setting)
-    : Sampling<D>(setting.interval), setting_(setting), statistics_(setting.nozzle, setting.collector) {
+    : Sampling<D>(setting.interval),
+      setting_(setting),
+      statistics_(setting.nozzle, setting.collector, setting.material) {
   this->sample_early_end();
 }
 
@@ -90,7 +92,8 @@ void Recorder<D>::sample(const Jet<D>& jet) {
                      fed - fed_,
                      landed - landed_,
                      timing(jet.t),
-                     setting_.force_error};
+                     setting_.force_error,
+                     setting_.material};
   if (setting_.force_error) remark_on_forces(jet);
   std::vector<double> values;
   for (auto& list : lists_) {

@@ -33,6 +33,7 @@ class Recorder final : public Sampling<D> {
     double nozzle_radius, collector_distance;       ///< cm
     double interval, end;                           ///< scaled
     const FieldErrorReport* force_error = nullptr;  ///< null: exact forces
+    Material material = {};
   };
 
   explicit Recorder(const Setting& setting);

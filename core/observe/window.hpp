@@ -9,6 +9,7 @@
 
 #include "core/jet/collector.hpp"
 #include "core/jet/dense_output.hpp"
+#include "core/jet/material.hpp"
 #include "core/jet/nozzle.hpp"
 #include "core/jet/observer.hpp"
 
@@ -37,7 +38,8 @@ struct Window {
 template <int D>
 class Statistics {
  public:
-  Statistics(const Nozzle<D>& nozzle, const Collector& collector) : nozzle_(nozzle), collector_(collector) {}
+  Statistics(const Nozzle<D>& nozzle, const Collector& collector, const Material& material = {})
+      : nozzle_(nozzle), collector_(collector), material_(material) {}
 
   /// Integrates the path length too, which costs a pass over the beads each step.
   void follow_path() { follows_path_ = true; }
@@ -101,16 +103,18 @@ class Statistics {
     const double l = d.norm();
     ++window_.arrivals;
     window_.charge_out += jet.charge[0];
-    window_.mass_out += jet.mass[0];
+    const double left = material_.template remaining<D>(jet.y, 0);
+    window_.mass_out += jet.mass[0] * left;
     window_.speed += v.norm();
     window_.strain_rate += (v - upper_velocity).dot(d) / (l * l);
-    window_.radius += std::sqrt(jet.volume[0] * nozzle_.l_step() / l);
+    window_.radius += std::sqrt(jet.volume[0] * left * nozzle_.l_step() / l);
     charge_landed_ += jet.charge[0];
     next_arrival_from_ = upper[0];
   }
 
   const Nozzle<D>& nozzle_;
   const Collector& collector_;
+  Material material_;
   bool follows_path_ = false;
   Window window_;
   double integrated_to_ = 0, last_release_speed_ = 0;

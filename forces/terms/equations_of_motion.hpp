@@ -52,6 +52,13 @@ class EquationsOfMotion final : public RightHandSide<D> {
   /// Adds the rate of the next column that the scene adds to the state, behind that of the stress law.
   void add_column(std::unique_ptr<ColumnRate<D>> rate) { column_rates_.push_back(std::move(rate)); }
 
+  /// All columns added to the state, in their order.
+  Columns columns() const {
+    Columns all = stress_law_->columns();
+    for (const auto& rate : column_rates_) all.push_back(rate->column());
+    return all;
+  }
+
   /// The Coulomb force, null in a scene without charge, and the chain, both as the last evaluation left them.
   const CoulombForce<D>* coulomb() const { return coulomb_.get(); }
   const Chain<D>& chain() const { return chain_; }

@@ -5,7 +5,7 @@
 /// - u_up, P = (1 - s by_state)^-1, q = s P by_strain_rate and tau_i the tension's answer to the known part,
 ///
 ///     u_r = g_r + s u_v ,
-///     u_z = P g_z + q rate_by_d . [g_r] + q (s rate_by_d + rate_by_w) . [u_v] ,
+///     u_z = P (g_z + s by_strain_rate rate_by_d . [g_r]) + q (s rate_by_d + rate_by_w) . [u_v] ,
 ///     E_i = s tension_by_d + tension_by_w + tension_by_stress (q_sigma (s rate_by_d + rate_by_w))' ,
 ///     (m_i - s m_i acceleration_by_v_i) u_v,i + s E_i [u_v]_i - s E_{i-1} [u_v]_{i-1}
 ///         = m_i g_v,i - s tau_i + s tau_{i-1} .
@@ -32,10 +32,11 @@ class ChainSolver {
       const auto& e = J.element[i];
       Eliminated& z = eliminated_[i];
       z.P = (Eigen::Matrix2d::Identity() - s * e.stress.by_state).inverse();
-      z.q = s * z.P * e.stress.by_strain_rate;
-      z.rate_by_u = s * e.rate_by_d + e.rate_by_w;
-      const Block E =
-          s * e.tension_by_d + e.tension_by_w + e.tension_by_stress * (z.q[0] * z.rate_by_u).transpose();
+      const Eigen::Vector2d q = s * z.P * e.stress.by_strain_rate;
+      const Vec<D> rate_by_u = s * e.rate_by_d + e.rate_by_w;
+      z.stress_by_u = q[0] * rate_by_u;
+      z.column_by_u = q[1] * rate_by_u;
+      const Block E = s * e.tension_by_d + e.tension_by_w + e.tension_by_stress * z.stress_by_u.transpose();
       const double per_mass = s * J.inverse_mass[static_cast<Eigen::Index>(i)];
       velocities_.row[i].below = -per_mass * E_below;
       velocities_.row[i].diagonal = Block::Identity() + per_mass * (E + E_below);
@@ -57,7 +58,8 @@ class ChainSolver {
       const Eliminated& z = eliminated_[i];
       Vec<D> d = position<D>(g, row);
       if (i + 1 < n) d -= position<D>(g, row + 1);
-      const Eigen::Vector2d known = z.P * element_state(g, row) + z.q * e.rate_by_d.dot(d);
+      const Eigen::Vector2d known =
+          z.P * (element_state(g, row) + s_ * e.rate_by_d.dot(d) * e.stress.by_strain_rate);
       set_element_state(g, row, known);
       const Vec<D> tau = e.tension_by_d * d + e.tension_by_stress * known[0];
       v_[i] = velocity<D>(g, row) + s_ * J_->inverse_mass[row] * (tau_below - tau);
@@ -67,8 +69,9 @@ class ChainSolver {
     for (std::size_t i = 0; i < n; ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       const Eliminated& z = eliminated_[i];
-      const double rate = z.rate_by_u.dot(i + 1 < n ? Vec<D>(v_[i] - v_[i + 1]) : v_[i]);
-      set_element_state(g, row, element_state(g, row) + z.q * rate);
+      const Vec<D> u = i + 1 < n ? Vec<D>(v_[i] - v_[i + 1]) : v_[i];
+      const Eigen::Vector2d answer = {z.stress_by_u.dot(u), z.column_by_u.dot(u)};
+      set_element_state(g, row, element_state(g, row) + answer);
       g.row(row).template head<D>() += s_ * v_[i].transpose().array();
       g.row(row).template segment<D>(D) = v_[i].transpose().array();
     }
@@ -79,8 +82,7 @@ class ChainSolver {
 
   struct Eliminated {
     Eigen::Matrix2d P;
-    Eigen::Vector2d q;
-    Vec<D> rate_by_u;
+    Vec<D> stress_by_u, column_by_u;
   };
 
   Eigen::Vector2d element_state(const State<D>& g, Eigen::Index row) const {

@@ -65,7 +65,7 @@ void march_to(double end, double dt, Jet<D>& jet, EquationsOfMotion<D>& f, const
   stepped.timestep = dt * scales(p).time;
   const Nozzle<D> nozzle(p);
   const Collector collector(p);
-  Integration<D>(stepped, {jet, f, nozzle, collector}).march.to(end);
+  Integration<D>(stepped, {jet, f, nozzle, collector, undivided<D>, f.columns()}).march.to(end);
 }
 
 }  // namespace treejet

@@ -178,7 +178,7 @@ inline const std::vector<Broken> broken_decks = {
     {"integrator 2", "integrator 4", {"integrator 4", "write integrator 1, 2 or 3"}},
     {"", "airdrag yes", {"airdrag", "not modelled", "leave the line out"}},
     {"", "variable mass deviation 0.1", {"variable mass", "leave the line out"}},
-    {"", "kvfluid yes\nstress law giesekus\nstress law mobility 0.2", {"kvfluid yes: expected stress law kelvin-voigt"}, "kvfluid yes"},
+    {"", "kvfluid yes\nstress law oldroyd-b", {"kvfluid yes: expected stress law kelvin-voigt"}, "kvfluid yes"},
     {"", "stress law oldroyd", {"expected maxwell|kelvin-voigt", "did you mean oldroyd-b?"}},
     {"", "stress law giesekus", {"expected stress law mobility to be given, too"}},
     {"", "stress law mobility 0.1", {"expected stress law giesekus"}},

@@ -132,16 +132,17 @@ TEST_CASE("FENE-P in stress and spring factor is the law in its conformation, st
 }
 
 TEST_CASE("FENE-P: the viscosity of fast steady extension is 2 L^2 / 3 times that of slow") {
-  const double L2 = 40, Wi = 2000;
-  const Jet<1> jet = drawn(law(FeneP::of_length(std::sqrt(L2))), Wi, 10. / Wi, nullptr, 20000);
+  const double L2 = 40, Wi = 200;
+  // relaxation is as fast as 4 (2 Wi)^2 near full stretch, which the steps follow
+  const Jet<1> jet = drawn(law(FeneP::of_length(std::sqrt(L2))), Wi, 8. / Wi, nullptr, 20000);
   // f = 2 Wi + O(1): the limit is met to about 1 / Wi
-  CHECK(stress(jet) / Wi == Approx(2 * L2 / 3).epsilon(3 / Wi));
+  CHECK(stress(jet) / Wi == Approx(2 * L2 / 3).epsilon(1 / Wi));
   CHECK(steady_viscosity([&] { return law(FeneP::of_length(std::sqrt(L2))); }, 1e-3) ==
         Approx(1).epsilon(5e-3));
 }
 
 TEST_CASE("FENE-P dumbbells that are long enough are Oldroyd-B's") {
-  // they differ by A / L^2
+  // they differ by A / L^2, 1e-9
   CHECK(stress(drawn(law(FeneP::of_length(1e5)), 0.8, 2)) == Approx(started_up(0.8, 2)).epsilon(1e-8));
 }
 
@@ -180,9 +181,9 @@ TEST_CASE(
     march_to<1>(t, 0.01, jet, f, plain_parameters(), Scheme::rk4);
     return jet;
   };
-  const Jet<1> held = loaded(0.3, 60);
+  const Jet<1> held = loaded(0.3, 120);
   // the smaller root of ln x = 0.3 x; what is left of the motion is far below round-off
-  CHECK(held.y(0, 0) == Approx(1.631340702).epsilon(1e-8));
+  CHECK(held.y(0, 0) == Approx(1.6313407572673833).epsilon(1e-12));
   CHECK(std::abs(held.y(0, velocity_column<1>)) < 1e-10);
   // 0.4 > 1/e has none
   CHECK(loaded(0.4, 30).y(0, 0) > 10);
@@ -219,7 +220,7 @@ TEST_CASE(
     CHECK(fluid.rates(-2, {-1.1}).stress == -fluid.rates(2, {1.1}).stress);
     for (double r : {0.3, 2.0}) {
       // yields at a kink, on the way: what the crossing errs by is relaxed by then
-      CHECK(stress(drawn(law(fluid), r, 20, nullptr, 2000)) ==
+      CHECK(stress(drawn(law(fluid), r, 30, nullptr, 3000)) ==
             Approx(yield + K * std::pow(r, n)).epsilon(1e-9));
     }
   }
