@@ -13,7 +13,8 @@ ErrorNorm::ErrorNorm(const Parameters& p, const Columns& added) {
   length_ = groups(p).L_step;
   velocity_ = length_ / T;
   stress_ = 1 / T;
-  permitted_ = std::min(allowance * p.tolerance.value_or(0), most);
+  tolerance_ = p.tolerance.value_or(0);
+  permitted_ = std::min(allowance * tolerance_, most);
 }
 
 }  // namespace treejet

@@ -19,17 +19,18 @@ struct SchemeProperties {
   int order;      ///< of the result; of an adaptive scheme its error estimate is of this order in h, too
   bool adaptive;  ///< estimates its error and goes with tolerance, else with timestep
   bool implicit;  ///< solves for the local terms
+  double share;   ///< of what a tolerance permits, for the estimate of a step: so all schemes err alike
 };
 
 /// The row `auto` stands for whichever adaptive scheme the program chooses.
 inline constexpr auto schemes = std::to_array<SchemeProperties>({
-    {Scheme::automatic, "auto", "", "auto", 0, true, false},
-    {Scheme::euler, "euler", "1", "Euler", 1, false, false},
-    {Scheme::heun, "heun", "2", "Heun", 2, false, false},
-    {Scheme::rk4, "rk4", "3", "Runge-Kutta 4", 4, false, false},
-    {Scheme::dopri5, "dopri5", "", "Dormand-Prince 5(4)", 5, true, false},
-    {Scheme::verner6, "verner6", "", "Verner 6(5)", 6, true, false},
-    {Scheme::kencarp5, "kencarp5", "", "Kennedy-Carpenter 5(4), local terms implicit", 5, true, true},
+    {Scheme::automatic, "auto", "", "auto", 0, true, false, 1},
+    {Scheme::euler, "euler", "1", "Euler", 1, false, false, 1},
+    {Scheme::heun, "heun", "2", "Heun", 2, false, false, 1},
+    {Scheme::rk4, "rk4", "3", "Runge-Kutta 4", 4, false, false, 1},
+    {Scheme::dopri5, "dopri5", "", "Dormand-Prince 5(4)", 5, true, false, 0.1},
+    {Scheme::verner6, "verner6", "", "Verner 6(5)", 6, true, false, 1},
+    {Scheme::kencarp5, "kencarp5", "", "Kennedy-Carpenter 5(4), local terms implicit", 5, true, true, 0.1},
 });
 
 constexpr const SchemeProperties& properties(Scheme scheme) {

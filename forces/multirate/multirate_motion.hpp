@@ -26,6 +26,7 @@
 
 #include "core/jet/error_norm.hpp"
 #include "forces/multirate/history.hpp"
+#include "forces/multirate/short_waves.hpp"
 #include "forces/terms/equations_of_motion.hpp"
 
 namespace treejet {
@@ -35,7 +36,8 @@ class MultirateMotion final : public RightHandSide<D> {
  public:
   /// The norm is that of the step control; the error of the continuation is held to a part of what it
   /// permits.
-  MultirateMotion(EquationsOfMotion<D>& full, const ErrorNorm& norm) : full_(full), norm_(norm) {}
+  MultirateMotion(EquationsOfMotion<D>& full, const ErrorNorm& norm, const ShortWaves& short_waves)
+      : full_(full), norm_(norm), short_waves_(short_waves) {}
 
   /// For the tables of all beads, or of those that `followed` gave.
   void operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) override;
@@ -53,7 +55,7 @@ class MultirateMotion final : public RightHandSide<D> {
   void before_removal(const Jet<D>& jet) override { history_.before_removal(jet, Q()); }
   void after_release(const Jet<D>& jet) override { history_.after_release(jet, Q()); }
 
-  void visit(Archive& state) override { state(full_, history_, interval_, full_evaluations_); }
+  void visit(Archive& state) override { state(full_, history_, interval_, full_evaluations_, amplifies_); }
 
   std::int64_t full_evaluations() const { return full_evaluations_; }
 
@@ -73,12 +75,16 @@ class MultirateMotion final : public RightHandSide<D> {
   void drift(const SolutionPoint<D>& from, double h, Rows middle, State<D>& all) const;
   void push_by_held(const Jet<D>& jet, double h, Rows middle, State<D>& all) const;
   double mismatch(const Jet<D>& jet, double t, const State<D>& y, const PastEvaluation<D>& now) const;
+  bool amplifies();
+  double aim() const;
 
   EquationsOfMotion<D>& full_;
   ErrorNorm norm_;
+  ShortWaves short_waves_;
   History<D> history_;
   double interval_ = 0;  ///< from a moment to the next node that is one, and the longest step
   std::int64_t full_evaluations_ = 0;
+  bool amplifies_ = false;  ///< the jet its short waves, so that nothing is continued
 
   FastRegion<D> fast_region_{{}, fast_region_old};
   Eigen::ArrayXd specific_charge_;  ///< Q q / m of the followed beads

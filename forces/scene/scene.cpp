@@ -232,7 +232,8 @@ Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks, OwnTe
                                                         std::move(coulomb), threads);
   for (auto& rate : column_rates) scene.motion->add_column(std::move(rate));
   if (composer.multirate())
-    scene.multirate = std::make_unique<MultirateMotion<D>>(*scene.motion, ErrorNorm(p, columns));
+    scene.multirate =
+        std::make_unique<MultirateMotion<D>>(*scene.motion, ErrorNorm(p, columns), ShortWaves(p));
   if constexpr (D == 3)
     if (composer.in_pieces()) {
       const auto jet_of = [&](const std::vector<int>& rows) { return initial_jet<3>(p, rows, columns); };

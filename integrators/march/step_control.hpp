@@ -3,8 +3,9 @@
 ///
 /// Fixed: steps end on the grid k dt. An event inside a step splits it; the next step leads back to the grid.
 ///
-/// By tolerance: a step stands if its local error, core/jet/error_norm.hpp over the tolerance, is at most 1;
-/// the next one is h * 0.9 * error^-alpha * previous_error^beta (proportional-integral control). After an
+/// By tolerance: a step stands if its local error, core/jet/error_norm.hpp over the tolerance, is at most the
+/// scheme's share (core/jet/schemes.hpp); with the error over that share the next one is
+/// h * 0.9 * error^-alpha * previous_error^beta (proportional-integral control). After an
 /// event beads are pushed in another way than before, and events repeat: the step there is what the last
 /// first step after an event of this kind would have been allowed; after the first of its kind it is half the
 /// last step. Source of the controller: Hairer, Norsett, Wanner, "Solving ODEs I", II.4; Gustafsson (1991).
@@ -52,13 +53,15 @@ class FixedStep final : public StepControl {
 class AdaptiveStep final : public StepControl {
  public:
   /// No step is longer than `longest`, whatever its error.
-  AdaptiveStep(double first, int order, double longest = std::numeric_limits<double>::infinity())
-      : h_(first), order_(order), longest_(longest) {}
+  AdaptiveStep(double first, int order, double longest = std::numeric_limits<double>::infinity(),
+               double share = 1)
+      : h_(first), order_(order), longest_(longest), share_(share) {}
 
   double proposal(double t, double end) const override { return std::min({h_, longest_, end - t}); }
 
   bool accepts(double, double h, double error) override {
     const double k = order_;  // the estimate is of order k in h
+    error /= share_;
     if (!(error <= 1)) {
       h_ = h * (std::isfinite(error) ? std::max(0.2, 0.9 * std::pow(error, -1 / k)) : 0.1);
       rejected_ = true;
@@ -99,7 +102,7 @@ class AdaptiveStep final : public StepControl {
 
   double h_;
   int order_;
-  double longest_;
+  double longest_, share_;
   double previous_error_ = 1e-4;
   bool rejected_ = false;
   std::optional<EventKind> after_;    ///< an event, unless a step has been made since

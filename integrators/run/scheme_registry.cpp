@@ -50,8 +50,9 @@ std::unique_ptr<StepControl> step_control(const Parameters& p) {
   const double time = scales(p).time;
   if (p.timestep) return std::make_unique<FixedStep>(*p.timestep / time);
   constexpr double first = 1e-4;  // of tau; the control finds its pace within a few steps
-  return std::make_unique<AdaptiveStep>(first, properties(chosen_scheme(p)).order,
-                                        most_samples_of_a_step * shortest_interval(p) / time);
+  const SchemeProperties& scheme = properties(chosen_scheme(p));
+  return std::make_unique<AdaptiveStep>(first, scheme.order,
+                                        most_samples_of_a_step * shortest_interval(p) / time, scheme.share);
 }
 
 std::string steps_description(const Parameters& p) {

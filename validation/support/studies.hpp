@@ -29,6 +29,9 @@ void study_determinism(Report& report);
 /// removals; error against tolerance.
 void study_work_precision(Report& report);
 
+/// Error of all beads of case 3, promised and measured, for every scheme and tolerance.
+void study_promised_accuracy(Report& report);
+
 /// The oldest bead where other programs say it is.
 void study_reference_values(Report& report);
 

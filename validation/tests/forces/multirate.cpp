@@ -40,6 +40,33 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("A chain of like charges pushes every other bead aside as its short waves are said to grow") {
+  const Parameters p = example("pvp", {"points 400", "initial length 8.", "inserting no", "perturb no"});
+  Run<3> run(p);
+  Jet<3> jet = run.jet();
+  EquationsOfMotion<3>& f = *run.scene.motion;
+  const Eigen::Index n = jet.size(), middle = n / 2;
+  const double l = run.scene.nozzle.l_step(), aside = 1e-6 * l, speed = 3;
+  for (double stress : {0.0, 0.3}) {
+    CAPTURE(stress);
+    State<3> slope, displaced = jet.y;
+    displaced.col(velocity_column<3>) = speed;
+    displaced.col(stress_column<3>) = stress;
+    for (Eigen::Index i = 0; i < n; ++i) displaced(i, 1) = i % 2 ? -aside : aside;
+    f(jet, 0, displaced, slope);
+    const double s = std::sqrt(slope(middle, velocity_column<3> + 1) / displaced(middle, 1));
+    // surface tension, left out of the estimate, is a two hundredth of the repulsion; of the sum over odd k
+    // what lies beyond the ends is 1e-5
+    CHECK(ShortWaves(p).growth(f.chain()) == Approx(double(n - 1) * s * l / speed).epsilon(0.01));
+  }
+  // tension above the repulsion holds the chain straight
+  jet.y.col(velocity_column<3>) = speed;
+  jet.y.col(stress_column<3>) = 100;
+  State<3> slope;
+  f(jet, 0, jet.y, slope);
+  CHECK(ShortWaves(p).growth(f.chain()) == 0);
+}
+
 TEST_CASE("The error of two rates falls with the tolerance") {
   std::vector<double> errors;
   Parameters p = with_tolerance(example("pvp"), 1e-9);
@@ -62,7 +89,7 @@ TEST_CASE("At a remembered moment the continued slopes are the full ones") {
   run.to(0.006);
   Jet<3> jet = run.jet();
   EquationsOfMotion<3>& full = *run.scene.motion;
-  MultirateMotion<3> two(full, ErrorNorm(run.parameters));
+  MultirateMotion<3> two(full, ErrorNorm(run.parameters), ShortWaves(run.parameters));
   State<3> expected, remembered, continued;
   for (int k = 0; k < 4; ++k) {  // three moments, and the state they lead to
     two.on_accepted_step(jet, jet.t, jet.y, nullptr, remembered);
@@ -81,7 +108,7 @@ TEST_CASE(
   Run<3> run(with_tolerance(example("pvp"), 1e-6));
   run.to(0.006);
   Jet<3> jet = run.jet();
-  MultirateMotion<3> two(*run.scene.motion, ErrorNorm(run.parameters));
+  MultirateMotion<3> two(*run.scene.motion, ErrorNorm(run.parameters), ShortWaves(run.parameters));
   constexpr double spacing = 1e-3;
   State<3> slope;
   for (int k = 0; k < 5; ++k) {
@@ -105,7 +132,8 @@ TEST_CASE("A release that a step has overshot leaves the interval of two rates a
   Jet<3> jet = run.jet();
   REQUIRE(jet.size() == fast_region_beads - 1);
   jet.held = true;
-  MultirateMotion<3> two(*run.scene.motion, ErrorNorm(p));
+  jet.y.col(stress_column<3>) = 100;  // tension, else the chain would amplify short waves
+  MultirateMotion<3> two(*run.scene.motion, ErrorNorm(p), ShortWaves(p));
   State<3> slope;
   for (double t : {0.0, 1e-3, 2.5e-3, 2e-3}) two.on_accepted_step(jet, t, jet.y, nullptr, slope);
   run.scene.nozzle.release(jet);
@@ -122,7 +150,7 @@ TEST_CASE("A release and a removal leave the continued slopes true") {
     run.scene.nozzle.release(jet);
   }
   EquationsOfMotion<3>& full = *run.scene.motion;
-  MultirateMotion<3> two(full, ErrorNorm(run.parameters));
+  MultirateMotion<3> two(full, ErrorNorm(run.parameters), ShortWaves(run.parameters));
   State<3> slope, expected, continued;
   for (int k = 0; k < 4; ++k) {
     two.on_accepted_step(jet, jet.t, jet.y, nullptr, slope);
@@ -154,7 +182,8 @@ struct Departure {
   Jet<3> jet;
   MultirateMotion<3> two;
 
-  explicit Departure(Run<3>& run) : jet(run.jet()), two(*run.scene.motion, ErrorNorm(run.parameters)) {
+  explicit Departure(Run<3>& run)
+      : jet(run.jet()), two(*run.scene.motion, ErrorNorm(run.parameters), ShortWaves(run.parameters)) {
     for (int k = 0; k < 3; ++k) {
       if (k > 0) {
         jet.t += 0.01;

@@ -81,8 +81,8 @@ TEST_CASE("The control of a pair takes the estimate for what it is, of the order
     CAPTURE(row.word);
     const auto control = step_control(with_tolerance(example("pvp"), 1e-6, row.scheme));
     const double h = control->proposal(0, 1);
-    // an error of 2^order would be one at half the step, but for the safety factor 0.9
-    REQUIRE(!control->accepts(0, h, std::pow(2, row.order)));
+    // an error of 2^order times the share would be one at half the step, but for the safety factor 0.9
+    REQUIRE(!control->accepts(0, h, row.share * std::pow(2, row.order)));
     CHECK(control->proposal(0, 1) == Approx(0.9 * h / 2).epsilon(1e-14));
   }
 }
