@@ -31,6 +31,7 @@ class Relations {
     perturbation();
     coulomb_sum();
     self_field();
+    refinement();
     fluid();
     output();
     pieces();
@@ -123,6 +124,36 @@ class Relations {
              "elements ({:.6g} cm) are shorter than twice nozzle cross ({} cm): too short for a slender "
              "tube, its self-field is limited",
              l_step, p_.nozzle_cross));
+  }
+
+  void refinement() {
+    for (const char* detail : {"dynamic refinement tolerance", "dynamic refinement threshold",
+                               "dynamic refinement every", "dynamic refinement start"})
+      note(!p_.refinement && is_given(detail), detail, "no effect without dynamic refinement yes");
+    if (!p_.refinement) return;
+    error(!is_given("dynamic refinement tolerance") && !is_given("dynamic refinement threshold"),
+          {"dynamic refinement"},
+          "expected dynamic refinement tolerance or dynamic refinement threshold to be given, too");
+    error(!p_.inserting && !is_given("dynamic refinement every"), {"dynamic refinement", "inserting"},
+          "expected dynamic refinement every to be given, too: without inserting yes no release tells when "
+          "to look");
+    error(p_.cutoff.has_value(), {"dynamic refinement", "cutoff"},
+          "expected no cutoff: its reach is a number of beads");
+    error(p_.parallel == ParallelData::distributed, {"dynamic refinement", "parallel"},
+          "expected parallel replicated: a jet in pieces is not refined");
+    note(p_.self_field == SelfField::point && p_.density_charge > 0, "dynamic refinement",
+         "halving the elements of a chain of point charges changes the force on it; write self field "
+         "slender for one that does not depend on them");
+    if (!p_.refinement_threshold || !sound("initial length")) return;
+    if (is_given("points") == is_given("resolution")) return;
+    const double l_step =
+        is_given("points") ? p_.initial_length / p_.points.value_or(1) : p_.resolution.value_or(0);
+    const double least = 2 * std::max(l_step, p_.nozzle_cross);
+    error(*p_.refinement_threshold < least * (1 - round_off),
+          {"dynamic refinement threshold", "nozzle cross"},
+          fmt::format("expected at least {:.6g} cm, twice the length ({:.6g} cm) of an element as the nozzle "
+                      "lets it go and twice nozzle cross ({} cm)",
+                      least, l_step, p_.nozzle_cross));
   }
 
   void perturbation() {

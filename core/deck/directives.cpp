@@ -112,6 +112,20 @@ const Directive table[] = {
      .meaning = "field of an element on itself: none, beads are point charges (point), or that of a thin charged tube "
                 "(slender), with which the force on a bend does not depend on the length of the elements"},
 
+    {.words = "dynamic refinement", .member = &P::refinement,
+     .meaning = "elements are split where the jet needs more beads, and merged where it needs less",
+     .synonyms = "dynam refinement, dynam refin", .heading = "Beads where the jet needs them"},
+    {.words = "dynamic refinement tolerance", .member = &P::refinement_tolerance, .check = below_one,
+     .meaning = "relative error of an arc that is drawn by an element: the jet turns by at most sqrt(24 times "
+                "this) an element",
+     .absent = "the threshold alone"},
+    {.words = "dynamic refinement threshold", .member = &P::refinement_threshold, .unit = "cm", .check = positive,
+     .meaning = "longest element", .absent = "the tolerance alone"},
+    {.words = "dynamic refinement every", .member = &P::refinement_every, .unit = "s", .check = positive,
+     .meaning = "interval at which to look", .absent = "whenever a bead is released; mandatory without inserting"},
+    {.words = "dynamic refinement start", .member = &P::refinement_start, .unit = "s", .check = not_negative,
+     .meaning = "time from which on to look"},
+
     {.words = "coulomb", .member = &P::coulomb,
      .meaning = "Coulomb sum: direct over all pairs; by a tree to the accuracy below; auto: whichever is faster",
      .heading = "Coulomb sum"},

@@ -25,7 +25,8 @@ const Foreign table[] = {
     {"variable charge", "variable charge", "all beads are released with the same charge; leave the line out", "no"},
     {"kvfluid", "Kelvin-Voigt fluid",
      "the fluid is Maxwell's, or Herschel-Bulkley's with hbfluid; leave the line out", "no", false, true},
-    {"dynamic refinement", "refinement", "elements are not refined; choose a smaller resolution", "no"},
+    {"dynamic refinement anchor", "refinement", "elements are halved where they are, none is moved", {}, true},
+    {"dynamic refinement capacity", "refinement", "there is no upper bound to the number of beads", {}, true},
     {"restart", "restart", resumed, "no"},
     {"dragvel", "dragging velocity",
      "beads are always released with the paper's dragging velocity; leave the line out", "yes", false, true},
@@ -57,7 +58,7 @@ const Foreign table[] = {
 };
 
 constexpr ForeignKey keys[] = {
-    {"nref", "refinement"}, {"vol", "variable volume"}, {"volr", "variable volume"}, {"v", "varying potential"},
+    {"vol", "variable volume"}, {"volr", "variable volume"}, {"v", "varying potential"},
     {"visc", "evaporation"}, {"gc", "evaporation"}, {"evrc", "evaporation"}, {"emfc", "evaporation"},
     {"mxst", "largest stress"}, {"mxsx", "largest stress"}, {"nms", "multiple step"}, {"erms", "multiple step"},
 };

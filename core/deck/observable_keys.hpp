@@ -67,6 +67,8 @@ inline constexpr auto observable_keys = std::to_array<ObservableKey>({
     {"chc", "statC", "charge of the beads taken by the collector in the print interval"},
     {"fcn", "statC/s", "curn with the part of the next bead counted that is drawn out already", averaged},
     {"fcc", "statC/s", "curc with the part of the way counted that the next bead has gone", averaged},
+    {"nref", "1", "elements split since the start (dynamic refinement)"},
+    {"nmrg", "1", "elements merged with another since the start"},
     {"ferr", "1",
      "relative L2 error of the Coulomb field, as last measured on some beads; 0 with the direct sum"},
     {"ferrmax", "1", "largest error among these beads, over the root mean square of the field"},

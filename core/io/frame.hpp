@@ -2,10 +2,11 @@
 /// A frame: the jet at one instant as files show it, in CGS and in three dimensions whatever the jet's.
 ///
 /// Points are the beads, oldest first, and then the nozzle, so that the polygon through the points is the
-/// jet. A bead's id counts the beads since the start from 1; the nozzle has id 0. Quantities of an element -
-/// stress, radius a = a_0 sqrt(V l_step / l) - stand at its lower end; the nozzle has stress 0, mass 0,
-/// radius a_0 and the charge it stands for in the Coulomb sum, that of a bead, and of a column that the scene
-/// adds the value that beads are born with. A held bead (core/jet/nozzle.hpp) is no point yet.
+/// jet. A bead's id counts the beads since the start from 1, in the order of their births; the nozzle has id
+/// 0. Quantities of an element - stress, radius a = a_0 sqrt(V l_step / l) - stand at its lower end; the
+/// nozzle has stress 0, mass 0, radius a_0 and the charge it stands for in the Coulomb sum, that of a bead, and
+/// of a column that the scene adds the value that beads are born with. A held bead (core/jet/nozzle.hpp) is no
+/// point yet.
 
 #include <cmath>
 #include <cstdint>
@@ -66,7 +67,7 @@ Frame frame(const Jet<D>& jet, const Nozzle<D>& nozzle, const Scales& scales, do
   for (Eigen::Index i = 0; i < jet.size(); ++i) {
     const Vec<D> r = treejet::position<D>(jet.y, i);
     const Vec<D> upper = i + 1 < jet.size() ? treejet::position<D>(jet.y, i + 1) : end;
-    f.id.push_back(jet.removed + i + 1);
+    f.id.push_back(jet.id.size() > 0 ? jet.id[i] : jet.removed + i + 1);
     add(position, r, scales.length);
     add(velocity, treejet::velocity<D>(jet.y, i), scales.velocity);
     stress.push_back(jet.y(i, stress_column<D>) * scales.stress);

@@ -30,20 +30,24 @@ struct SolutionPoint {
   void visit(Archive& state) { state(t, y, slope); }
 };
 
+using IdColumn = Eigen::Array<std::int64_t, Eigen::Dynamic, 1>;
+
 /// The solution at this moment, and what is constant in its beads.
 template <int D>
 struct Jet : SolutionPoint<D> {
   Eigen::ArrayXd mass, charge;
-  Eigen::ArrayXd volume;  ///< of the element that a bead owns, which stays as it stretches
-  bool held = false;      ///< a bead waits at distance l_step below the nozzle, its charge fading in
-  std::int64_t removed =
-      0;  ///< beads that have left at the collector: bead i was the (removed + i)-th inserted
+  Eigen::ArrayXd volume;     ///< of the element that a bead owns, which stays as it stretches
+  bool held = false;         ///< a bead waits at distance l_step below the nozzle, its charge fading in
+  std::int64_t removed = 0;  ///< beads that have left at the collector: without refinement bead i was the
+                             ///< (removed + i)-th inserted
+  IdColumn id;               ///< of the beads, from 1 in the order of their births; none without refinement
+  std::int64_t born = 0;     ///< beads that have been given an id
 
   Eigen::Index size() const { return this->y.rows(); }
 
   void visit(Archive& state) {
     SolutionPoint<D>::visit(state);
-    state(mass, charge, volume, held, removed);
+    state(mass, charge, volume, held, removed, id, born);
   }
 };
 
@@ -75,6 +79,17 @@ void append(Jet<D>& jet, const Bead<D>& bead) {
   add(jet.mass, bead.mass);
   add(jet.charge, bead.charge);
   add(jet.volume, bead.volume);
+  if (jet.id.size() > 0) {
+    jet.id.conservativeResize(n + 1);
+    jet.id[n] = ++jet.born;
+  }
+}
+
+/// Gives the beads ids: from now on `removed + i` does not tell one from another.
+template <int D>
+void number_beads(Jet<D>& jet) {
+  jet.born = jet.removed + jet.size();
+  jet.id = IdColumn::LinSpaced(jet.size(), jet.removed + 1, jet.born);
 }
 
 /// The beads of a jet at another moment, without a slope.
@@ -88,6 +103,8 @@ Jet<D> at(const Jet<D>& jet, double t, const State<D>& y) {
   then.volume = jet.volume;
   then.held = jet.held;
   then.removed = jet.removed;
+  then.id = jet.id;
+  then.born = jet.born;
   return then;
 }
 
@@ -96,6 +113,7 @@ template <int D>
 void drop_first(Jet<D>& jet) {
   drop_first_row(jet.y);
   for (auto* constants : {&jet.mass, &jet.charge, &jet.volume}) drop_first_row(*constants);
+  if (jet.id.size() > 0) drop_first_row(jet.id);
   ++jet.removed;
 }
 

@@ -3,6 +3,7 @@
 /// In a run that is resumed `visit` takes the place of `start`.
 
 #include "core/jet/dense_output.hpp"
+#include "core/jet/refinement.hpp"
 
 namespace treejet {
 
@@ -25,6 +26,9 @@ class Observer {
   /// An event at jet.t. For a placement and a release `jet` is the jet after it, for a removal the jet before
   /// it.
   virtual void event(EventKind, const Jet<D>&) {}
+
+  /// Elements have been split and merged; `jet` is the jet after it.
+  virtual void refined(const Jet<D>&, const Refinement&) {}
 
   /// The jet after the last step.
   virtual void finish(const Jet<D>&) {}

@@ -71,6 +71,12 @@ struct Parameters : CoulombSetting {
   double perturb_frequency = 0;  ///< angular, rad/s
   double perturb_amplitude = 0;  ///< cm
 
+  bool refinement = false;
+  std::optional<double> refinement_tolerance;  ///< of an arc drawn by a chord, core/jet/spacing.hpp
+  std::optional<double> refinement_threshold;  ///< longest element, cm
+  std::optional<double> refinement_every;      ///< s
+  double refinement_start = 0;                 ///< s
+
   std::optional<double> print_time;  ///< s
   std::vector<std::string> print_list;
   std::vector<std::string> printstat_list;

@@ -9,6 +9,7 @@
 
 #include "core/jet/dense_output.hpp"
 #include "core/jet/local_jacobian.hpp"
+#include "core/jet/refinement.hpp"
 
 namespace treejet {
 
@@ -61,6 +62,10 @@ class RightHandSide {
   /// The oldest bead of `jet` is about to be removed; the youngest one has just been released.
   virtual void before_removal(const Jet<D>&) {}
   virtual void after_release(const Jet<D>&) {}
+
+  /// The elements of `jet` are about to be split and merged. Returns the evaluations of the forces that it
+  /// took to learn of it.
+  virtual std::int64_t before_refinement(const Jet<D>&, const Refinement&) { return 0; }
 
   /// What a motion remembers from one evaluation to the next.
   virtual void visit(Archive&) {}

@@ -33,7 +33,7 @@ double rate(const View<D>& v, double amount) {
 
 template <int D>
 double per_arrival(const View<D>& v, double sum) {
-  return v.window.arrivals > 0 ? sum / v.window.arrivals : none;
+  return v.window.arrivals > 0 ? sum / v.window.mass_out : none;
 }
 
 /// The time average of an integral over the window; at the start, before any window, its value now.
@@ -93,6 +93,8 @@ void add_window(Entries<D>& o) {
   o["cpu"] = [](auto& v) { return v.timing.interval; };
   o["cpue"] = [](auto& v) { return v.timing.elapsed; };
   o["cpur"] = [](auto& v) { return v.timing.left; };
+  o["nref"] = [](auto& v) { return double(v.splits); };
+  o["nmrg"] = [](auto& v) { return double(v.merges); };
   o["ferr"] = [](auto& v) { return v.force_error ? v.force_error->l2 : 0; };
   o["ferrmax"] = [](auto& v) { return v.force_error ? v.force_error->max : 0; };
 }

@@ -23,6 +23,7 @@ struct View {
   const Scales& scales;
   double nozzle_radius, collector_distance;  ///< cm
   double fed = 0, landed = 0;                ///< scaled charge that passed nozzle and collector in the window
+  std::int64_t splits = 0, merges = 0;       ///< of elements since the start
   Timing timing = {};
   const FieldErrorReport* force_error = nullptr;  ///< null: exact forces
 };

@@ -89,6 +89,8 @@ void Recorder<D>::sample(const Jet<D>& jet) {
                      setting_.collector_distance,
                      fed - fed_,
                      landed - landed_,
+                     statistics_.splits(),
+                     statistics_.merges(),
                      timing(jet.t),
                      setting_.force_error};
   if (setting_.force_error) remark_on_forces(jet);

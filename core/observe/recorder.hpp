@@ -45,6 +45,7 @@ class Recorder final : public Sampling<D> {
   void start(const Jet<D>& jet) override;
   void segment(const Jet<D>& jet, const DenseOutput<D>& segment) override;
   void event(EventKind kind, const Jet<D>& jet) override { statistics_.event(kind, jet); }
+  void refined(const Jet<D>&, const Refinement& refinement) override { statistics_.refined(refinement); }
   void finish(const Jet<D>& jet) override;
   void visit(Archive& state) override;
 

@@ -30,7 +30,7 @@ struct Window {
   double charge_in = 0, mass_in = 0;    ///< of the beads placed at the nozzle
   double charge_out = 0, mass_out = 0;  ///< of the beads removed at the collector
   int arrivals = 0;
-  double speed = 0, strain_rate = 0, radius = 0;  ///< sums over arrivals; radius in units of a_0
+  double speed = 0, strain_rate = 0, radius = 0;  ///< sums over arrivals by mass; radius in units of a_0
   double release_speed = 0, path_length = 0;      ///< integrals over time
 };
 
@@ -73,6 +73,15 @@ class Statistics {
     }
   }
 
+  void refined(const Refinement& refinement) {
+    for (const RefinementPass& pass : refinement)
+      (pass.kind == RefinementPass::Kind::split ? splits_ : merges_) += std::ssize(pass.rows);
+  }
+
+  /// Elements split and merged since the start.
+  std::int64_t splits() const { return splits_; }
+  std::int64_t merges() const { return merges_; }
+
   /// Charge that has left the nozzle, the part of the next bead that has been drawn out counted.
   double charge_fed(const Jet<D>& jet) const {
     if (jet.size() == 0) return double(released_);
@@ -89,7 +98,8 @@ class Statistics {
   }
 
   void visit(Archive& state) {
-    state(window_, integrated_to_, last_release_speed_, released_, charge_landed_, next_arrival_from_);
+    state(window_, integrated_to_, last_release_speed_, released_, charge_landed_, next_arrival_from_,
+          splits_, merges_);
   }
 
  private:
@@ -102,9 +112,9 @@ class Statistics {
     ++window_.arrivals;
     window_.charge_out += jet.charge[0];
     window_.mass_out += jet.mass[0];
-    window_.speed += v.norm();
-    window_.strain_rate += (v - upper_velocity).dot(d) / (l * l);
-    window_.radius += std::sqrt(jet.volume[0] * nozzle_.l_step() / l);
+    window_.speed += jet.mass[0] * v.norm();
+    window_.strain_rate += jet.mass[0] * (v - upper_velocity).dot(d) / (l * l);
+    window_.radius += jet.mass[0] * std::sqrt(jet.volume[0] * nozzle_.l_step() / l);
     charge_landed_ += jet.charge[0];
     next_arrival_from_ = upper[0];
   }
@@ -116,6 +126,7 @@ class Statistics {
   double integrated_to_ = 0, last_release_speed_ = 0;
   std::int64_t released_ = 0;
   double charge_landed_ = 0, next_arrival_from_ = 0;
+  std::int64_t splits_ = 0, merges_ = 0;
 };
 
 }  // namespace treejet

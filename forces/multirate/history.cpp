@@ -118,6 +118,7 @@ void History<D>::before_removal(const Jet<D>& jet, double Q) {
     drop_first_row(m.point_charge);
     drop_first_row(m.field);
     drop_first_row(m.slope);
+    if (m.state.rows() > 0) drop_first_row(m.state);
     Jet<D> left;
     left.mass = jet.mass.tail(jet.size() - 1);
     left.charge = jet.charge.tail(jet.size() - 1);
@@ -144,8 +145,31 @@ void History<D>::after_release(const Jet<D>& jet, double Q) {
     m.point.row(youngest) = p.transpose().array();
     insert_row(m.point_charge, youngest);
     m.point_charge[youngest] = jet.charge[youngest];
+    if (m.state.rows() > 0) {
+      insert_row(m.state, youngest);
+      m.state.row(youngest) = jet.y.row(youngest);
+      m.state.row(youngest).template head<D>() = p.transpose().array();
+    }
     if (continuable(jet.size())) m.set_far();
   }
+}
+
+template <int D>
+int History<D>::before_refinement(const Jet<D>& jet, const Refinement& refinement,
+                                  EquationsOfMotion<D>& full) {
+  State<D> slope;
+  for (int k = 0; k < remembered_; ++k) {
+    PastEvaluation<D>& m = past_[k];
+    Jet<D> past = at(jet, m.t, m.state);
+    past.held = false;
+    refine(past, refinement);
+    full(past, past.t, past.y, slope);
+    m = {past.t, full.chain(), past, full.coulomb()->field(), slope, full.coulomb()->Q()};
+    m.state = past.y;
+  }
+  if (continuable(beads()))
+    for (auto& m : past_) m.set_far();
+  return remembered_;
 }
 
 template struct PastEvaluation<1>;

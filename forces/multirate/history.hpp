@@ -4,12 +4,15 @@
 ///
 /// Remembered is the motion without a held bead, whose charge rises too fast to be continued. At a removal
 /// and a release the values are repaired as if the bead had always been absent or present; the past of a
-/// released bead is the straight way on which it left. Rows are those of the whole jet. Scaled. Source: e.g.
-/// Hairer, Norsett, Wanner, "Solving ODEs I", III.1.
+/// released bead is the straight way on which it left. For a refinement of the elements the states are
+/// remembered too, and evaluated anew as if the elements had always been the new ones. Rows are those of the
+/// whole jet. Scaled. Source: e.g. Hairer, Norsett, Wanner, "Solving ODEs I", III.1.
 
 #include <array>
 
 #include "core/jet/chain.hpp"
+#include "core/jet/refinement.hpp"
+#include "forces/terms/equations_of_motion.hpp"
 #include "parallel/rows.hpp"
 
 namespace treejet {
@@ -37,6 +40,7 @@ struct PastEvaluation {
   Points field;           ///< E at the beads, of all points
   Points far;             ///< E at the fast beads, of the points that are not near
   Eigen::ArrayXXd slope;  ///< acceleration, stress rate, rates of the added columns
+  State<D> state;         ///< of the beads; no rows in a scene that does not refine its elements
 
   PastEvaluation() = default;
   /// That of the chain at t; the field is what its charges make at its beads.
@@ -46,7 +50,7 @@ struct PastEvaluation {
   /// What the fast beads feel of far points, from all else.
   void set_far();
 
-  void visit(Archive& state) { state(t, point, point_charge, field, far, slope); }
+  void visit(Archive& state) { state(t, point, point_charge, field, far, slope, this->state); }
 };
 
 /// Field at the fast beads of an end, of the points near to it.
@@ -88,6 +92,9 @@ class History {
   void forget() { *this = {}; }
   void before_removal(const Jet<D>& jet, double Q);
   void after_release(const Jet<D>& jet, double Q);
+  /// Before `refinement` of the jet: evaluates the same anew for the jets of the past, refined alike. Returns
+  /// the evaluations.
+  int before_refinement(const Jet<D>& jet, const Refinement& refinement, EquationsOfMotion<D>& full);
 
   void visit(Archive& state) { state(past_, remembered_); }
 

@@ -56,6 +56,7 @@ bool MultirateMotion<D>::on_accepted_step(const Jet<D>& jet, double t, const Sta
   const bool evaluated = full_.on_accepted_step(jet, t, y, continues ? nullptr : known, slope);
   full_evaluations_ += evaluated;
   PastEvaluation<D> now(t, full_.chain(), jet, full_.coulomb()->field(), slope, Q());
+  if (refines_) now.state = y;
   double interval = since;
   if (continues) {
     now.set_far();

@@ -35,7 +35,9 @@ class MultirateMotion final : public RightHandSide<D> {
  public:
   /// The norm is that of the step control; the error of the continuation is held to a part of what it
   /// permits.
-  MultirateMotion(EquationsOfMotion<D>& full, const ErrorNorm& norm) : full_(full), norm_(norm) {}
+  /// With `refines` elements may be split and merged.
+  MultirateMotion(EquationsOfMotion<D>& full, const ErrorNorm& norm, bool refines = false)
+      : full_(full), norm_(norm), refines_(refines) {}
 
   /// For the tables of all beads, or of those that `followed` gave.
   void operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) override;
@@ -52,6 +54,11 @@ class MultirateMotion final : public RightHandSide<D> {
   void complete(const Jet<D>& jet, double h, const State<D>& some, State<D>& next) override;
   void before_removal(const Jet<D>& jet) override { history_.before_removal(jet, Q()); }
   void after_release(const Jet<D>& jet) override { history_.after_release(jet, Q()); }
+  std::int64_t before_refinement(const Jet<D>& jet, const Refinement& refinement) override {
+    const int evaluations = history_.before_refinement(jet, refinement, full_);
+    full_evaluations_ += evaluations;
+    return evaluations;
+  }
 
   void visit(Archive& state) override { state(full_, history_, interval_, full_evaluations_); }
 
@@ -76,6 +83,7 @@ class MultirateMotion final : public RightHandSide<D> {
 
   EquationsOfMotion<D>& full_;
   ErrorNorm norm_;
+  bool refines_;
   History<D> history_;
   double interval_ = 0;  ///< from a moment to the next node that is one, and the longest step
   std::int64_t full_evaluations_ = 0;

@@ -136,6 +136,8 @@ class Composer {
     note(p_.inserting, "insertion at the nozzle", "inserting yes", "no inserting yes");
     note(p_.removing, "removal at the collector", "removing yes", "no removing yes");
     note(p_.perturb, "circling nozzle", "perturb yes", "no perturb yes");
+    note(p_.refinement, "splitting and merging of elements", "dynamic refinement yes",
+         "no dynamic refinement yes");
   }
 
   bool in_pieces() const { return p_.parallel == ParallelData::distributed; }
@@ -232,7 +234,8 @@ Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks, OwnTe
                                                         std::move(coulomb), threads);
   for (auto& rate : column_rates) scene.motion->add_column(std::move(rate));
   if (composer.multirate())
-    scene.multirate = std::make_unique<MultirateMotion<D>>(*scene.motion, ErrorNorm(p, columns));
+    scene.multirate =
+        std::make_unique<MultirateMotion<D>>(*scene.motion, ErrorNorm(p, columns), p.refinement);
   if constexpr (D == 3)
     if (composer.in_pieces()) {
       const auto jet_of = [&](const std::vector<int>& rows) { return initial_jet<3>(p, rows, columns); };

@@ -38,7 +38,7 @@ double stiffness_factor(const Logarithm& g) {
 
 /// The arrays of a chain that the tension of an element is made of, from one element on.
 struct Elements {
-  const double *charge, *inverse_mass, *inverse_length;
+  const double *charge, *inverse_mass, *inverse_length, *volume;
   double Q;
   Section section;
 };
@@ -48,10 +48,11 @@ template <bool close>
 TREEJET_SIMD_CLONES void set_tensions(Elements c, int count, double* tension) {
 #pragma GCC ivdep
   for (int e = 0; e < count; ++e) {
-    const double inverse = c.inverse_length[e], g = plain_g(inverse, c.section.squared_radius(inverse));
+    const double inverse = c.inverse_length[e], V = c.volume[e];
+    const double g = plain_g(inverse, c.section.squared_radius(V * inverse));
     const Logarithm logarithm = close ? limited(g) : Logarithm{g, 1};
     const double charges = c.Q * c.charge[e] * c.inverse_mass[e] * (c.charge[e + 1] * c.inverse_mass[e + 1]);
-    tension[e] = charges * inverse * inverse * tension_factor(logarithm);
+    tension[e] = V * V * charges * inverse * inverse * tension_factor(logarithm);
   }
 }
 
@@ -67,18 +68,18 @@ TREEJET_SIMD_CLONES void pull(std::array<const double*, D> t, const double* inve
 }
 
 double length_where_limiter_is_gone(Section section) {
-  // g = 3/2 ln l - ln(a_0^2 l_step) / 2 + ln 2 - gamma
+  // g = 3/2 ln l - ln(a_0^2 l_step V) / 2 + ln 2 - gamma, here of V = 1
   const double constant = section.squared_radius(1);
   return std::cbrt(constant * std::exp(2 * (limiter_is_gone + std::numbers::egamma)) / 4);
 }
 
 }  // namespace
 
-/// Q c_i c_up; the nozzle continues the jet with its charge over mass, 1.
+/// Q Q_e^2; the nozzle continues the jet with its charge over mass, 1.
 template <int D>
 double SlenderSelfField<D>::charges(const Chain<D>& c, int i) const {
   const double up = i + 1 < c.beads ? c.point_charge[i + 1] * c.inverse_mass[i + 1] : 1;
-  return Q_ * c.point_charge[i] * c.inverse_mass[i] * up;
+  return Q_ * c.volume[i] * c.volume[i] * c.point_charge[i] * c.inverse_mass[i] * up;
 }
 
 template <int D>
@@ -89,9 +90,14 @@ void SlenderSelfField<D>::add(const Chain<D>& c, Rows rows, Acceleration<D>& a) 
   for (int first = rows.first; first < rows.last; first += at_once) {
     const int last = std::min(first + at_once, rows.last), element = std::max(first - 1, 0);
     const int count = last - element;
-    const Elements elements{c.point_charge.data() + element, c.inverse_mass.data() + element,
-                            c.inverse_length.data() + element, Q_, section_};
-    const bool close = c.inverse_length.segment(element, count).maxCoeff() * far > 1;
+    const Elements elements{c.point_charge.data() + element,
+                            c.inverse_mass.data() + element,
+                            c.inverse_length.data() + element,
+                            c.volume.data() + element,
+                            Q_,
+                            section_};
+    const double largest = c.volume.segment(element, count).maxCoeff();
+    const bool close = c.inverse_length.segment(element, count).maxCoeff() * far * std::cbrt(largest) > 1;
     double* const to = tension.data() + (first == 0);
     tension[0] = 0;
     const bool youngest = last == c.beads;
@@ -110,7 +116,8 @@ template <int D>
 double SlenderSelfField<D>::tension_of_youngest(const Chain<D>& c) const {
   const int i = c.beads - 1;
   const auto tension = [&](double inverse) {
-    return inverse * inverse * tension_factor(limited(plain_g(inverse, section_.squared_radius(inverse))));
+    const double squared_radius = section_.squared_radius(c.volume[i] * inverse);
+    return inverse * inverse * tension_factor(limited(plain_g(inverse, squared_radius)));
   };
   const double d = 1 / c.inverse_length[i], whole = tension(c.inverse_length[i]);
   if (c.points() == c.beads + 1) return charges(c, i) * whole;
@@ -125,18 +132,18 @@ void SlenderSelfField<D>::differentiate(const Chain<D>& c, LocalJacobian<D>& J) 
   struct Answer {
     double tension, stiffness;
   };
-  const auto answer = [&](double inverse) {
-    const Logarithm g = limited(plain_g(inverse, section_.squared_radius(inverse)));
+  const auto answer = [&](int i, double inverse) {
+    const Logarithm g = limited(plain_g(inverse, section_.squared_radius(c.volume[i] * inverse)));
     return Answer{inverse * inverse * tension_factor(g), inverse * inverse * inverse * stiffness_factor(g)};
   };
   for (int i = 0; i < c.beads; ++i) {
     const double inverse = c.inverse_length[i], d = 1 / inverse;
-    Answer T = answer(inverse);
+    Answer T = answer(i, inverse);
     if (i + 1 == c.beads && c.points() == c.beads + 2) {
       using std::numbers::pi;
       const double l_step = section_.l_step, s = c.point_charge[c.beads];
       const double fading = s > 0 && s < 1 ? pi / l_step * std::sin(2 * pi * (d / l_step - 1.5)) : 0;
-      const Answer below = answer(1 / (d - l_step));
+      const Answer below = answer(i, 1 / (d - l_step));
       T = {(1 - s) * T.tension + s * below.tension,
            (1 - s) * T.stiffness + s * below.stiffness + fading * (below.tension - T.tension)};
     }
@@ -153,7 +160,8 @@ double SlenderSelfField<D>::energy(const Chain<D>& c) const {
   double sum = 0;
   for (int i = 0; i < c.beads; ++i) {
     const double inverse = c.inverse_length[i];
-    sum += charges(c, i) * inverse * limited(plain_g(inverse, section_.squared_radius(inverse))).value;
+    const double squared_radius = section_.squared_radius(c.volume[i] * inverse);
+    sum += charges(c, i) * inverse * limited(plain_g(inverse, squared_radius)).value;
   }
   return sum;
 }

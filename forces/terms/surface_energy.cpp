@@ -14,13 +14,14 @@ namespace {
 template <int D>
 struct Arrays {
   std::array<const double*, D> t;
-  const double *inverse_length, *inverse_mass;
+  const double *inverse_length, *volume, *inverse_mass;
   std::array<double*, D> a;
   double alpha;
   Section section;
 
   double tension(int element) const {
-    return std::numbers::pi * alpha * std::sqrt(section.squared_radius(inverse_length[element]));
+    return std::numbers::pi * alpha *
+           std::sqrt(section.squared_radius(volume[element] * inverse_length[element]));
   }
   void pull(int i, int element, double way) const {
     const double force = way * tension(element) * inverse_mass[i];
@@ -42,8 +43,13 @@ TREEJET_SIMD_CLONES void add_between_elements(Arrays<D> bead, int first, int las
 
 template <int D>
 void SurfaceEnergy<D>::add(const Chain<D>& c, Rows rows, Acceleration<D>& a) const {
-  const Arrays<D> bead{
-      columns<D>(c.tangent), c.inverse_length.data(), c.inverse_mass.data(), columns<D>(a), alpha_, section_};
+  const Arrays<D> bead{columns<D>(c.tangent),
+                       c.inverse_length.data(),
+                       c.volume.data(),
+                       c.inverse_mass.data(),
+                       columns<D>(a),
+                       alpha_,
+                       section_};
   if (rows.first == 0) bead.pull(0, 0, -1);
   add_between_elements(bead, std::max(rows.first, 1), rows.last);
 }
@@ -54,7 +60,8 @@ void SurfaceEnergy<D>::differentiate(const Chain<D>& c, LocalJacobian<D>& J) con
   for (int i = 0; i < c.beads; ++i) {
     const Vec<D> t = c.tangent.row(i).matrix().transpose();
     const double inverse = c.inverse_length[i];
-    const double tension = std::numbers::pi * alpha_ * std::sqrt(section_.squared_radius(inverse));
+    const double tension =
+        std::numbers::pi * alpha_ * std::sqrt(section_.squared_radius(c.volume[i] * inverse));
     J.element[static_cast<std::size_t>(i)].tension_by_d +=
         tension * inverse * (Eigen::Matrix<double, D, D>::Identity() - 1.5 * t * t.transpose());
   }
@@ -65,7 +72,8 @@ double SurfaceEnergy<D>::energy(const Chain<D>& c) const {
   double sum = 0;
   for (int i = 0; i < c.beads; ++i) {
     const double inverse = c.inverse_length[i];
-    sum += 2 * std::numbers::pi * alpha_ * std::sqrt(section_.squared_radius(inverse)) / inverse;
+    sum +=
+        2 * std::numbers::pi * alpha_ * std::sqrt(section_.squared_radius(c.volume[i] * inverse)) / inverse;
   }
   return sum;
 }

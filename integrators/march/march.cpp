@@ -123,6 +123,7 @@ template <int D>
 double March<D>::attempt(double end) {
   while (true) {
     const double longest = parts_.motion.longest_step();
+    if (parts_.spacing) end = std::min(end, parts_.spacing->next(jet_.t));
     double h = std::min(parts_.control.proposal(jet_.t, end), longest);
     bool aimed = false;
     if (aims()) {
@@ -183,12 +184,7 @@ bool March<D>::to(double end) {
     halt_if(state_check<D>(jet_.y, next_.y, parts_.nozzle.l_step(), parts_.decomposition.before(jet_)),
             next_.t);
     evaluate(next_, parts_.stepper.slope_at_end());
-    if (parts_.events == EventRule::step) {
-      commit(std::nullopt);
-      look_at_step_end();
-    } else {
-      commit(located_event(reach));
-    }
+    commit(parts_.events == EventRule::step ? std::nullopt : located_event(reach));
   }
   for (auto* w : parts_.observers) w->finish(jet_);
   under_way_ = false;
@@ -205,8 +201,8 @@ void March<D>::visit(Archive& state) {
   if (!state.reading()) return;
   const auto n = jet_.size();
   const bool alike = jet_.mass.size() == n && jet_.charge.size() == n && jet_.volume.size() == n &&
-                     jet_.y.cols() == columns && (jet_.slope.rows() == n || !under_way_) &&
-                     (jet_.slope.cols() == columns || !under_way_);
+                     (jet_.id.size() == n || jet_.id.size() == 0) && jet_.y.cols() == columns &&
+                     (jet_.slope.rows() == n || !under_way_) && (jet_.slope.cols() == columns || !under_way_);
   if (!alike || jet_.removed < 0)
     throw FileError("the checkpoint's jet has beads without a mass, a charge, a volume or a velocity");
 }
@@ -234,14 +230,33 @@ void March<D>::commit(std::optional<Due> due) {
   if (due) segment.until = due->t;
   for (auto* w : parts_.observers) w->segment(jet_, segment);
   if (aims()) forecast_.segment(jet_, segment);
+  const std::int64_t released = effort_.released;
+  bool changed = due.has_value();
   if (due) {
     jet_.y = segment.at(due->t);  // of which the jet is the beginning
     jet_.t = due->t;
     settle(*due);
-    if (jet_.size() > 0) evaluate(jet_);
   } else {
     std::swap<SolutionPoint<D>>(jet_, next_);
+    if (parts_.events == EventRule::step) changed = look_at_step_end();
   }
+  changed |= refine_if_due(released);
+  if (changed && jet_.size() > 0) evaluate(jet_);
+}
+
+/// Splits and merges elements, if it is time to look and any need it. The bead whose release may be the sign
+/// to look has been let go after `released_before` others.
+template <int D>
+bool March<D>::refine_if_due(std::int64_t released_before) {
+  if (!parts_.spacing || !parts_.spacing->due(jet_.t, effort_.released > released_before)) return false;
+  const Refinement refinement = parts_.spacing->refinement(jet_);
+  if (refinement.empty()) return false;
+  effort_.evaluations += parts_.motion.before_refinement(jet_, refinement);
+  refine(jet_, refinement);
+  for (const RefinementPass& pass : refinement)
+    (pass.kind == RefinementPass::Kind::split ? effort_.split : effort_.merged) += std::ssize(pass.rows);
+  for (auto* w : parts_.observers) w->refined(jet_, refinement);
+  return true;
 }
 
 /// To all who learn from events, when the jet is as watchers are to see it.
@@ -298,14 +313,14 @@ void March<D>::settle(const Due& due) {
   }
 }
 
+/// True if there was an event.
 template <int D>
-void March<D>::look_at_step_end() {
+bool March<D>::look_at_step_end() {
   const bool inserts = parts_.nozzle.inserting() && overdue(true, jet_.y, jet_.t) >= 0;
   const bool removes = parts_.collector.removing() && overdue(false, jet_.y, jet_.t) > 0;
-  if (!inserts && !removes) return;
   if (inserts) insertion();
   if (removes) removal();
-  if (jet_.size() > 0) evaluate(jet_);
+  return inserts || removes;
 }
 
 template class March<1>;

@@ -3,10 +3,10 @@
 ///
 /// Insertion (place, release) and removal are zeros of functions of the state, located on the dense output
 /// (core/jet/dense_output.hpp). Order at one instant: insertion, then removal, then whatever these have made
-/// due, until nothing is. The last bead is never removed while beads are inserted; without insertion the
-/// march ends with an empty jet. With EventRule::step both are looked for at the ends of steps only, at most
-/// one of each a step: JETSPIN's way, first order in the step whatever the scheme. No step goes over the end
-/// of a piece of time within which the right-hand side is smooth.
+/// due, until nothing is, then refinement. The last bead is never removed while beads are inserted; without
+/// insertion the march ends with an empty jet. With EventRule::step both are looked for at the ends of steps
+/// only, at most one of each a step: JETSPIN's way, first order in the step whatever the scheme. No step goes
+/// over the end of a piece of time within which the right-hand side is smooth.
 ///
 /// Errors: NumericalError names bead, time and likely cause when the state is no longer finite, a step falls
 /// below round-off, or beads of a straight jet have crossed. The watchers have seen everything up to there.
@@ -20,6 +20,7 @@
 #include "core/jet/error_norm.hpp"
 #include "core/jet/nozzle.hpp"
 #include "core/jet/observer.hpp"
+#include "core/jet/spacing.hpp"
 #include "integrators/march/forecast.hpp"
 #include "integrators/march/step_control.hpp"
 #include "integrators/schemes/stepper.hpp"
@@ -29,6 +30,7 @@ namespace treejet {
 /// Work done by a march.
 struct Effort {
   std::int64_t evaluations = 0, steps = 0, rejected = 0, retaken = 0, placed = 0, released = 0, removed = 0;
+  std::int64_t split = 0, merged = 0;  ///< elements
 };
 
 template <int D>
@@ -46,6 +48,7 @@ class March {
     std::vector<Observer<D>*> observers;
     std::function<bool()> stop_here = {};  ///< asked between any two steps: whether to stop there
     Decomposition<D>& decomposition = undivided<D>;
+    const Spacing<D>* spacing = nullptr;  ///< null: elements are neither split nor merged
   };
 
   explicit March(const Parts& parts)
@@ -88,7 +91,8 @@ class March {
   void insertion();
   void removal();
   void settle(const Due& due);
-  void look_at_step_end();
+  bool look_at_step_end();
+  bool refine_if_due(std::int64_t released_before);
 
   Parts parts_;
   Jet<D>& jet_;                                 ///< the solution now

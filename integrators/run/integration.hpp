@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "forces/scene/scene.hpp"
@@ -41,6 +42,7 @@ class Integration {
               std::function<bool()> stop_here = {})
       : stepper_(stepper<D>(chosen_scheme(p))),
         control_(step_control(p)),
+        spacing_(p.refinement ? std::make_optional<Spacing<D>>(p) : std::nullopt),
         march({.jet = system.jet,
                .motion = system.right_hand_side,
                .stepper = *stepper_,
@@ -51,11 +53,15 @@ class Integration {
                .norm = ErrorNorm(p, system.columns),
                .observers = std::move(observers),
                .stop_here = std::move(stop_here),
-               .decomposition = system.decomposition}) {}
+               .decomposition = system.decomposition,
+               .spacing = spacing_ ? &*spacing_ : nullptr}) {
+    if (spacing_ && system.jet.id.size() == 0) number_beads(system.jet);
+  }
 
  private:
   std::unique_ptr<Stepper<D>> stepper_;
   std::unique_ptr<StepControl> control_;
+  std::optional<Spacing<D>> spacing_;
 
  public:
   March<D> march;

@@ -238,10 +238,10 @@ TEST_CASE(
     "A feature that is switched off, or concerns files alone, is one note whatever the number of its lines",
     "[deck]") {
   for (const char* line :
-       {"multiple step no", "dynamic refinement no", "evaporation no", "kvfluid no", "airdrag no",
-        "restart no", "variable mass no", "dragvel yes", "noise no", "lorentz no", "mirror no",
-        "job time 3600", "print binary 1.d-4 style 3", "printstat binary", "print pdb frame 1.d-3",
-        "print xyz frame 1.d-2", "print rescalexyz", "cutoff points 1000"}) {
+       {"multiple step no", "evaporation no", "kvfluid no", "airdrag no", "restart no", "variable mass no",
+        "dragvel yes", "noise no", "lorentz no", "mirror no", "job time 3600", "print binary 1.d-4 style 3",
+        "printstat binary", "print pdb frame 1.d-3", "print xyz frame 1.d-2", "print rescalexyz",
+        "cutoff points 1000"}) {
     INFO(line);
     const Deck deck = parse_deck(altered("", line), name);
     const auto about = [&](const std::string& note) { return note.find(": left out") != std::string::npos; };
@@ -258,11 +258,11 @@ TEST_CASE(
 
 TEST_CASE("Keys of what is not modelled are left out of the tables with a note; others are errors",
           "[deck]") {
-  const Deck deck = parse_deck(sound_deck, name, {"printstat list t nref rc visc"});
+  const Deck deck = parse_deck(sound_deck, name, {"printstat list t vol rc visc"});
   CHECK(deck.parameters.printstat_list == std::vector<std::string>{"t", "rc"});
   REQUIRE(deck.notes.size() == 2);
-  CHECK(deck.notes[0].find("nref (refinement), visc (evaporation)") != std::string::npos);
-  CHECK(message(sound_deck, {"printstat list nref"}).find("expected keys of observables") !=
+  CHECK(deck.notes[0].find("vol (variable volume), visc (evaporation)") != std::string::npos);
+  CHECK(message(sound_deck, {"printstat list vol"}).find("expected keys of observables") !=
         std::string::npos);
 }
 

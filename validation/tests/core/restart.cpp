@@ -72,7 +72,7 @@ StopRequest never() {
 
 /// All observables but the wall clock's.
 constexpr const char* all_keys =
-    "t x y z st vx vy vz yz angl n f l curn curc fcn fcc chn chc mfn mfc vn vc svc rc rrr lp rlp";
+    "t x y z st vx vy vz yz angl n f l curn curc fcn fcc chn chc mfn mfc vn vc svc rc rrr lp rlp nref nmrg";
 
 Case output_often(const char* example, double end, std::vector<std::string> overrides) {
   overrides.push_back(fmt::format("final time {}", end));
@@ -103,6 +103,9 @@ std::vector<Case> cases() {
                        {near, "integrator 3", "timestep 1.d-6", "hbfluid yes", "hbfluid consistency 1.",
                         "hbfluid index 0.8"}),
           output_often("straight-jet", 2e-2, {"collector distance 1."}),
+          output_often("pvp", 3e-3,
+                       {"collector distance 3.", "perturb ampl 1.d-2", "self field slender",
+                        "dynamic refinement yes", "dynamic refinement tolerance 1.d-2"}),
           output_often("pvp", 4e-6, fixed_tree),
           output_often("pvp", 2e-4, two_rate_tree)};
 }

@@ -49,6 +49,7 @@ Jet<D> crooked(int n, double length) {
     for (int k = 0; k < D; ++k) r[k] = length * between(random);
     r[0] += length * i;
     beads.push_back({r, Vec<D>::Zero(), 0, 1 + between(random), 1 + between(random)});
+    beads.back().volume = 1 + between(random);
   }
   return jet_of<D>(beads);
 }

@@ -86,6 +86,14 @@ set -- run "$pvp" --quiet --set "final time 1.d-3" --set "print time 1.d-4" --se
 on 5 "$treejet" "$@" --out few 2>err || fail "more ranks than beads: $(cat err)"
 "$treejet" "$@" --out alone
 cmp -s few/statdat.dat alone/statdat.dat || fail "more ranks than beads: other numbers"
+set -- run "$pvp" --quiet --set "final time 4.d-3" --set "self field slender" --set "print hdf5 1.d-3" \
+  --set "dynamic refinement yes" --set "dynamic refinement tolerance 1.d-2" --set "printstat list t x n nref"
+on 3 "$treejet" "$@" --threads 2 --out refined 2>err || fail "a jet that refines: $(cat err)"
+"$treejet" "$@" --threads 1 --out refined-alone
+for file in statdat.dat traj.h5; do
+  cmp -s refined/$file refined-alone/$file || fail "a jet that refines: $file differs on three ranks"
+done
+[ "$(tail -1 refined/statdat.dat | awk '{print ($4 > 50)}')" = 1 ] || fail "a jet that should have refined"
 is "versions that three ranks print" "$(on 3 "$treejet" --version | wc -l | tr -d ' ')" 1
 
 ends 2 "did you mean viscosity" "a wrong deck" on 3 "$treejet" run "$pvp" --out wrong --set "viscosty 3"

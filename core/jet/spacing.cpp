@@ -1,0 +1,145 @@
+#include "core/jet/spacing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/jet/scales.hpp"
+
+namespace treejet {
+
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr Index left_alone = 3;     ///< youngest elements
+constexpr double round_off = 1e-9;  ///< relative
+
+/// The elements that join two beads.
+struct Elements {
+  Eigen::ArrayXd length, volume;
+  Eigen::ArrayXd turn;  ///< curvature times length, with the larger curvature at its two beads
+};
+
+template <int D>
+Elements elements(const Jet<D>& jet) {
+  const Index n = std::max<Index>(jet.size() - 1, 0);
+  Elements e{Eigen::ArrayXd(n), jet.volume.head(n), Eigen::ArrayXd::Zero(n)};
+  Vec<D> before = Vec<D>::Zero();
+  for (Index i = 0; i < n; ++i) {
+    const Vec<D> d = position<D>(jet.y, i) - position<D>(jet.y, i + 1), tangent = d.normalized();
+    e.length[i] = d.norm();
+    if (i > 0) {
+      const double curvature = 2 * (tangent - before).norm() / (e.length[i - 1] + e.length[i]);
+      for (const Index k : {i - 1, i}) e.turn[k] = std::max(e.turn[k], curvature * e.length[k]);
+    }
+    before = tangent;
+  }
+  return e;
+}
+
+/// Volume of the element that the oldest bead stands for beyond its own, half of which is its: none at a free
+/// end of half a cell.
+template <int D>
+double beyond_oldest(const Jet<D>& jet) {
+  return 2 * jet.mass[0] - jet.volume[0];
+}
+
+}  // namespace
+
+template <int D>
+Spacing<D>::Spacing(const Parameters& p) {
+  const Scales s = scales(p);
+  constexpr double chord = 24;  // 1 - sin(c / 2) / (c / 2) = c^2 / 24
+  if (p.refinement_threshold) longest_ = *p.refinement_threshold / s.length;
+  if (p.refinement_tolerance) most_turn_ = std::sqrt(chord * *p.refinement_tolerance);
+  every_ = p.refinement_every.value_or(0) / s.time;
+  start_ = p.refinement_start / s.time;
+  const double a = p.nozzle_cross / s.length;
+  slender_ = 4 * a * a * groups(p).L_step;  // (2 a)^2 = 4 a_0^2 l_step V / l
+}
+
+template <int D>
+double Spacing<D>::next(double t) const {
+  if (every_ == 0) return never;
+  const double first = std::ceil(start_ / every_ - round_off);
+  return every_ * std::max(std::floor(t / every_ + round_off) + 1, first);
+}
+
+template <int D>
+bool Spacing<D>::due(double t, bool has_released) const {
+  if (t < start_ * (1 - round_off)) return false;
+  if (every_ == 0) return has_released;
+  return std::abs(t / every_ - std::round(t / every_)) <= round_off;
+}
+
+/// One that is not the larger of two neighbours waits until the other has been split.
+template <int D>
+std::vector<Index> Spacing<D>::to_split(const Jet<D>& jet) const {
+  const Elements e = elements(jet);
+  const Index count = std::max<Index>(jet.size() - left_alone, 0);
+  const auto may_be_split = [&](Index i) {
+    const double half = e.length[i] / 2;
+    return i >= 0 && i < count && half * half * half >= slender_ * e.volume[i] / 2;
+  };
+  std::vector<Index> wanted;
+  for (Index i = 0; i < count; ++i)
+    if ((e.length[i] > longest_ || e.turn[i] > most_turn_) && may_be_split(i)) wanted.push_back(i);
+  std::vector<Index> found;
+  for (std::size_t n = 0; n < wanted.size(); ++n) {  // which grows on the way
+    const Index i = wanted[n];
+    bool waits = false;
+    for (const Index neighbour : {i - 1, i + 1}) {
+      const double volume = neighbour < 0 ? beyond_oldest(jet) : e.volume[neighbour];
+      if (volume <= e.volume[i] * (1 + round_off)) continue;
+      waits = true;
+      if (may_be_split(neighbour)) wanted.push_back(neighbour);
+    }
+    if (!waits) found.push_back(i);
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+template <int D>
+std::vector<Index> Spacing<D>::to_merge(const Jet<D>& jet) const {
+  const Elements e = elements(jet);
+  std::vector<Index> found;
+  for (Index k = 1; k + left_alone < jet.size(); ++k) {
+    const Index i = k - 1;
+    const double V = e.volume[i] + e.volume[k];
+    const double below = i > 0 ? e.volume[i - 1] : beyond_oldest(jet), above = e.volume[k + 1];
+    const bool taken = !found.empty() && found.back() + 1 == k;
+    const bool alike = std::abs(e.volume[i] - e.volume[k]) <= round_off * V;
+    const double smaller = below > 0 ? std::min(below, above) : above;
+    const bool graded = V <= 2 * smaller * (1 + round_off);
+    const bool fine =
+        e.length[i] + e.length[k] < longest_ / 2 && std::max(e.turn[i], e.turn[k]) < most_turn_ / 4;
+    if (!taken && alike && graded && fine && V <= 1 + round_off) found.push_back(k);
+  }
+  return found;
+}
+
+template <int D>
+Refinement Spacing<D>::refinement(const Jet<D>& jet) const {
+  constexpr int most_passes = 30;  // each halves: more are not needed by any jet that is still finite
+  Refinement all;
+  Jet<D> trial = jet;
+  using Kind = RefinementPass::Kind;
+  const auto settle = [&](Kind kind, auto found) {
+    for (int pass = 0; pass < most_passes; ++pass) {
+      RefinementPass next{kind, (this->*found)(trial)};
+      if (next.rows.empty()) return;
+      refine(trial, next);
+      all.push_back(std::move(next));
+    }
+  };
+  settle(Kind::split, &Spacing::to_split);
+  settle(Kind::merge, &Spacing::to_merge);
+  return all;
+}
+
+template class Spacing<1>;
+template class Spacing<3>;
+
+}  // namespace treejet
