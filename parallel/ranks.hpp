@@ -9,9 +9,9 @@
 /// decisions from common sums.
 ///
 /// A Ranks is a value. Copies stand for the same rank; a default one is alone and sends nothing. What sends
-/// (join_ranks, gather, of_all, exchange, sum, times, agree, require_same, greatest, threads_each, crowding)
-/// is called by all ranks in the same order, by their main threads. The only mpi.h is in ranks_mpi.cpp;
-/// ranks_alone.cpp stands in for it where there is no MPI.
+/// (join_ranks, gather, of_all, exchange, to_first, sum, times, agree, require_same, greatest, threads_each,
+/// crowding) is called by all ranks in the same order, by their main threads. The only mpi.h is in
+/// ranks_mpi.cpp; ranks_alone.cpp stands in for it where there is no MPI.
 
 #include <cstdint>
 #include <memory>
@@ -60,6 +60,10 @@ class Ranks {
   /// empty letter is not sent.
   using Letters = std::vector<std::vector<double>>;
   Letters exchange(const Letters& to) const;
+
+  /// The bytes of rank `from`, on the first rank; these two take part, the others get back what
+  /// they gave.
+  std::string to_first(int from, std::string bytes) const;
 
   /// Each number becomes the sum of all ranks' numbers in its place, to the same bits on all ranks.
   void sum(std::span<double> numbers) const;

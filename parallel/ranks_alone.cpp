@@ -23,6 +23,10 @@ Ranks::Letters Ranks::exchange(const Letters& to) const {
   return to;
 }
 
+std::string Ranks::to_first(int, std::string bytes) const {
+  return bytes;
+}
+
 void Ranks::sum(std::span<double>) const {}
 
 GatherTimes Ranks::times() const {

@@ -157,6 +157,25 @@ Ranks::Letters Ranks::exchange(const Letters& to) const {
   return from;
 }
 
+/// Nobody sends before the first rank asks: what arrives unasked for would pile up there.
+std::string Ranks::to_first(int from, std::string bytes) const {
+  if (from == 0 || (rank_ != 0 && rank_ != from)) return bytes;
+  const auto begin = Clock::now();
+  const MPI_Comm comm = world_->everyone;
+  if (rank_ == from) {
+    MPI_Ssend(bytes.data(), static_cast<int>(bytes.size()), MPI_CHAR, 0, 1, comm);
+  } else {
+    MPI_Status status;
+    int count;
+    MPI_Probe(from, 1, comm, &status);
+    MPI_Get_count(&status, MPI_CHAR, &count);
+    bytes.resize(static_cast<std::size_t>(count));
+    MPI_Recv(bytes.data(), count, MPI_CHAR, from, 1, comm, MPI_STATUS_IGNORE);
+  }
+  world_->times.exchange += seconds_since(begin);
+  return bytes;
+}
+
 /// Not by Allreduce, which may add in another order on each rank.
 void Ranks::sum(std::span<double> numbers) const {
   if (size_ == 1) return;

@@ -225,15 +225,9 @@ class Relations {
           "expected coulomb expansions local");
     error(p_.tolerance && p_.multirate != Multirate::no, {"parallel", "multirate"},
           "expected multirate no: all forces are evaluated at each stage");
-    error(p_.checkpoint.has_value(), {"parallel", "checkpoint"},
-          "expected no checkpoint: none can be written");
     if (composable())
       error(properties(chosen_scheme(p_)).implicit, {"parallel", "integrator"},
             "expected an explicit integrator: the local terms of a chain in pieces are not solved for");
-    for (const auto* list : {&p_.print_list, &p_.printstat_list})
-      for (const std::string& key : *list)
-        error(has(key, along_path), {"parallel", list == &p_.print_list ? "print list" : "printstat list"},
-              fmt::format("expected no {} in the lists: the path along the jet is not followed", key));
   }
 
   const Given* find(std::string_view words) const { return treejet::find(given_, directive(words)); }

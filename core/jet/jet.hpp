@@ -91,6 +91,17 @@ Jet<D> at(const Jet<D>& jet, double t, const State<D>& y) {
   return then;
 }
 
+/// Length of the polygon from the oldest bead to `end`, the nozzle or what follows the youngest row.
+template <int D>
+double path_length(const State<D>& y, const Vec<D>& end) {
+  double length = 0;
+  for (Eigen::Index i = 0; i < y.rows(); ++i) {
+    const Vec<D> upper = i + 1 < y.rows() ? position<D>(y, i + 1) : end;
+    length += (position<D>(y, i) - upper).norm();
+  }
+  return length;
+}
+
 /// Drops the oldest bead.
 template <int D>
 void drop_first(Jet<D>& jet) {

@@ -36,14 +36,6 @@ double per_arrival(const View<D>& v, double sum) {
   return v.window.arrivals > 0 ? sum / v.window.arrivals : none;
 }
 
-/// The time average of an integral over the window; at the start, before any window, its value now.
-template <int D>
-double path(const View<D>& v) {
-  const double w = v.jet.t - v.window.begin;
-  const double mean = w > 0 ? v.window.path_length / w : path_length<D>(v.jet.y, v.nozzle.position(v.jet.t));
-  return mean * v.scales.length;
-}
-
 template <int D>
 using Entries = std::map<std::string_view, Observable<D>>;
 
@@ -68,9 +60,9 @@ void add_state(Entries<D>& o) {
   };
   o["mass"] = [](auto& v) { return v.scales.mass; };
   o["q"] = [](auto& v) { return v.scales.charge; };
-  o["n"] = [](auto& v) { return double(v.jet.size() + v.jet.held); };
+  o["n"] = [](auto& v) { return double(v.beads + v.jet.held); };
   o["f"] = [](auto& v) { return double(v.jet.removed); };
-  o["l"] = [](auto& v) { return double(v.jet.removed + v.jet.size() + v.jet.held); };
+  o["l"] = [](auto& v) { return double(v.jet.removed + v.beads + v.jet.held); };
 }
 
 template <int D>
@@ -88,8 +80,8 @@ void add_window(Entries<D>& o) {
   o["svc"] = [](auto& v) { return per_arrival(v, v.window.strain_rate) / v.scales.time; };
   o["rc"] = [](auto& v) { return per_arrival(v, v.window.radius) * v.nozzle_radius; };
   o["rrr"] = [](auto& v) { return per_arrival(v, v.window.radius); };
-  o["lp"] = [](auto& v) { return path<D>(v); };
-  o["rlp"] = [](auto& v) { return path<D>(v) / v.collector_distance; };
+  o["lp"] = [](auto& v) { return v.path * v.scales.length; };
+  o["rlp"] = [](auto& v) { return v.path * v.scales.length / v.collector_distance; };
   o["cpu"] = [](auto& v) { return v.timing.interval; };
   o["cpue"] = [](auto& v) { return v.timing.elapsed; };
   o["cpur"] = [](auto& v) { return v.timing.left; };

@@ -17,7 +17,9 @@ struct Timing {
 
 template <int D>
 struct View {
-  const Jet<D>& jet;  ///< at the time of output
+  const Jet<D>& jet;   ///< at the time of output: its oldest bead and its youngest, at the least
+  std::int64_t beads;  ///< of the whole jet
+  double path;  ///< scaled, from the farthest bead to the nozzle in the window's mean, if it is followed
   const Nozzle<D>& nozzle;
   const Window& window;
   const Scales& scales;

@@ -39,7 +39,8 @@ class Hdf5Trajectory final : public Sampling<D> {
 
  protected:
   void sample(const Jet<D>& jet) override {
-    file_->append(frame<D>(jet, setting_.nozzle, setting_.scales, setting_.nozzle_radius, setting_.added));
+    file_->append(frame<D>(whole<D>(this->decomposition(), jet), setting_.nozzle, setting_.scales,
+                           setting_.nozzle_radius, setting_.added));
   }
 
  private:

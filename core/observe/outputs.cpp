@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
+#include "core/base/error.hpp"
 #include "core/io/output_files.hpp"
 #include "core/observe/accuracy_warning.hpp"
 #include "core/observe/output_hdf5.hpp"
@@ -53,13 +56,18 @@ void expect_absent(const Parameters& p, const std::filesystem::path& directory) 
   }
 }
 
+/// Sends its piece of what another rank writes: the oldest `most` beads.
 template <int D>
 class Contribution final : public Sampling<D> {
  public:
-  using Sampling<D>::Sampling;
+  Contribution(double interval, std::int64_t most) : Sampling<D>(interval), most_(most) {}
 
  private:
-  void sample(const Jet<D>&) override {}
+  void sample(const Jet<D>& jet) override {
+    this->decomposition().in_portions(jet, most_, [](const Jet<D>&) {});
+  }
+
+  std::int64_t most_;
 };
 
 /// Closes the record when all else is finished.
@@ -80,8 +88,11 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
                     const OutputSetting& setting, const Decomposition<D>& decomposition,
                     const OwnObservables<D>& own)
     : maxnum_(p.xyz_maxnum), force_error_(setting.force_error) {
+  if (decomposition.in_pieces() && !own.empty())
+    throw InputError("observables of the program's own are made of the whole jet: take parallel replicated");
   if (setting.elsewhere) {
-    contribute(p, setting, decomposition);
+    contributes_ = true;
+    contribute(p, nozzle, collector, setting, decomposition);
     return;
   }
   if (setting.existing == OutputFile::Existing::keep) expect_absent(p, setting.directory);
@@ -122,8 +133,8 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
   if (force_error_)
     watchers_.push_back({"accuracy", std::make_unique<AccuracyWarning<D>>(*force_error_, s.time)});
   if (!setting.quiet) {
-    watchers_.push_back(
-        {"progress", std::make_unique<Progress<D>>(p.final_time / s.time, s.time, stderr_is_interactive())});
+    watchers_.push_back({"progress", std::make_unique<Progress<D>>(p.final_time / s.time, s.time,
+                                                                   stderr_is_interactive(), decomposition)});
   }
 }
 
@@ -132,23 +143,28 @@ template <class Samples>
 Samples& Outputs<D>::watch(const std::string& name, std::unique_ptr<Samples> watcher,
                            const Decomposition<D>& decomposition) {
   Samples& watching = *watcher;
-  watching.sample_whole(decomposition);
+  watching.sample_all(decomposition);
   watchers_.push_back({name, std::move(watcher)});
   return watching;
 }
 
-/// What another rank writes from the whole jet, this one sends its piece for, in the same order.
+/// What another rank writes of all pieces, this one gives its own to, in the same order.
 template <int D>
-void Outputs<D>::contribute(const Parameters& p, const OutputSetting& setting,
-                            const Decomposition<D>& decomposition) {
-  if (decomposition.whole_here()) return;
+void Outputs<D>::contribute(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
+                            const OutputSetting& setting, const Decomposition<D>& decomposition) {
+  if (!decomposition.in_pieces()) return;
   const Scales s = scales(p);
-  const auto contribution = [&](double interval) -> Sampling<D>& {
-    return watch("", std::make_unique<Contribution<D>>(interval / s.time), decomposition);
+  if (makes_rows(p, setting)) {
+    auto rows = recorder<D>(p, nozzle, collector, nullptr);
+    rows->add(p.print_list, nullptr);
+    rows->add(p.printstat_list, nullptr);
+    watch("rows", std::move(rows), decomposition);
+  }
+  const auto contribution = [&](const char* name, double interval, std::int64_t most) {
+    watch(name, std::make_unique<Contribution<D>>(interval / s.time, most), decomposition);
   };
-  if (makes_rows(p, setting)) contribution(print_interval(p)).sample_early_end();
-  if (p.print_xyz) contribution(*p.print_xyz);
-  if (p.print_hdf5) contribution(*p.print_hdf5);
+  if (p.print_xyz) contribution("traj.xyz", *p.print_xyz, p.xyz_maxnum);
+  if (p.print_hdf5) contribution("traj.h5", *p.print_hdf5, std::numeric_limits<std::int64_t>::max());
 }
 
 template <int D>
@@ -201,7 +217,8 @@ std::vector<std::string> Outputs<D>::summary() const {
 
 template <int D>
 void Outputs<D>::visit(CheckpointParts& state) {
-  for (auto& w : watchers_) state.part(w.name, *w.watcher);
+  for (auto& w : watchers_)
+    contributes_ ? state.beginning_of_part(w.name, *w.watcher) : state.part(w.name, *w.watcher);
 }
 
 template class Outputs<1>;

@@ -56,7 +56,8 @@ class Outputs {
   void visit(CheckpointParts& state);
 
  private:
-  void contribute(const Parameters& p, const OutputSetting& setting, const Decomposition<D>& decomposition);
+  void contribute(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
+                  const OutputSetting& setting, const Decomposition<D>& decomposition);
   template <class Samples>
   Samples& watch(const std::string& name, std::unique_ptr<Samples> watcher,
                  const Decomposition<D>& decomposition);
@@ -72,6 +73,7 @@ class Outputs {
   std::vector<Named> watchers_;
   std::vector<std::filesystem::path> files_;
   const XyzTrajectory<D>* trajectory_ = nullptr;
+  bool contributes_ = false;  ///< to the outputs of another process
   int maxnum_;
   const FieldErrorReport* force_error_;
 };

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <string>
 
+#include "core/jet/decomposition.hpp"
 #include "core/jet/observer.hpp"
 
 namespace treejet {
@@ -35,18 +36,19 @@ std::string duration_text(double seconds);
 template <int D>
 class Progress final : public Observer<D> {
  public:
-  Progress(double end, double time_unit, bool interactive)
-      : time_unit_(time_unit), line_(end * time_unit, interactive) {}
+  Progress(double end, double time_unit, bool interactive, const Decomposition<D>& decomposition)
+      : time_unit_(time_unit), line_(end * time_unit, interactive), decomposition_(decomposition) {}
 
-  void segment(const Jet<D>&, const DenseOutput<D>& segment) override {
+  void segment(const Jet<D>& jet, const DenseOutput<D>& segment) override {
     constexpr int steps_a_look = 64;  // a look at the clock costs as much as a step of a single bead
-    if (++steps_ % steps_a_look == 0) line_.show(segment.until * time_unit_, segment.first().rows());
+    if (++steps_ % steps_a_look == 0) line_.show(segment.until * time_unit_, decomposition_.beads(jet));
   }
   void finish(const Jet<D>&) override { line_.clear(); }
 
  private:
   double time_unit_;
   ProgressLine line_;
+  const Decomposition<D>& decomposition_;
   std::int64_t steps_ = 0;
 };
 

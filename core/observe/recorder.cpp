@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "core/deck/observable_keys.hpp"
 
 namespace treejet {
@@ -36,7 +38,7 @@ void Recorder<D>::start(const Jet<D>& jet) {
 template <int D>
 void Recorder<D>::segment(const Jet<D>& jet, const DenseOutput<D>& segment) {
   Sampling<D>::segment(jet, segment);
-  statistics_.integrate(segment, segment.until);
+  statistics_.integrate(segment, segment.until, this->decomposition());
 }
 
 template <int D>
@@ -66,14 +68,24 @@ Timing Recorder<D>::timing(double t) const {
   return {interval, std::chrono::duration<double>(now - started_).count(), interval * rows_left};
 }
 
+/// The time average over the window; at the start, before any window, the path now.
+template <int D>
+double Recorder<D>::mean_path(const Jet<D>& jet) const {
+  if (!statistics_.follows_path()) return std::numeric_limits<double>::quiet_NaN();
+  const Window& w = statistics_.window();
+  const double length = jet.t - w.begin;
+  return length > 0 ? w.path_length / length
+                    : this->decomposition().path_length(jet.y, setting_.nozzle.position(jet.t));
+}
+
 /// The rows that follow say how their forces are computed whenever that has changed.
 template <int D>
 void Recorder<D>::remark_on_forces(const Jet<D>& jet) {
   const FieldErrorReport& forces = *setting_.force_error;
   if (forces.method == remarked_) return;
   remarked_ = forces.method;
-  const std::string remark =
-      fmt::format("t = {:.6g} s, {} beads: {}", jet.t * setting_.scales.time, jet.size(), forces.method);
+  const std::string remark = fmt::format("t = {:.6g} s, {} beads: {}", jet.t * setting_.scales.time,
+                                         this->decomposition().beads(jet), forces.method);
   for (auto& list : lists_)
     if (list.sink) list.sink->remark(remark);
 }
@@ -82,6 +94,8 @@ template <int D>
 void Recorder<D>::sample(const Jet<D>& jet) {
   const double fed = statistics_.charge_fed(jet), landed = statistics_.charge_landed(jet);
   const View<D> view{jet,
+                     this->decomposition().beads(jet),
+                     mean_path(jet),
                      setting_.nozzle,
                      statistics_.window(),
                      setting_.scales,

@@ -51,7 +51,7 @@ class Recorder final : public Sampling<D> {
  protected:
   void sample(const Jet<D>& jet) override;
   void before_sample(const Jet<D>&, const DenseOutput<D>& segment, double t) override {
-    statistics_.integrate(segment, t);
+    statistics_.integrate(segment, t, this->decomposition());
   }
 
  private:
@@ -62,6 +62,7 @@ class Recorder final : public Sampling<D> {
   using Clock = std::chrono::steady_clock;
 
   Timing timing(double t) const;
+  double mean_path(const Jet<D>& jet) const;
   void remark_on_forces(const Jet<D>& jet);
 
   Setting setting_;

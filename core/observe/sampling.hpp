@@ -14,8 +14,8 @@ class Sampling : public Observer<D> {
  public:
   explicit Sampling(double interval) : interval_(interval) {}
 
-  /// Of a jet in subdomains all ranks sample together: `sample` sees the whole jet on the first one.
-  void sample_whole(const Decomposition<D>& decomposition) { decomposition_ = &decomposition; }
+  /// Of a jet in subdomains all ranks sample together, each its own rows.
+  void sample_all(const Decomposition<D>& decomposition) { decomposition_ = &decomposition; }
 
   /// One more sample, between two asked times, where all beads have left and the run ends there.
   void sample_early_end() { samples_early_end_ = true; }
@@ -47,6 +47,7 @@ class Sampling : public Observer<D> {
   /// Told just before a sample that falls into a segment.
   virtual void before_sample(const Jet<D>&, const DenseOutput<D>&, double /*t*/) {}
 
+  const Decomposition<D>& decomposition() const { return *decomposition_; }
   double next() const { return interval_ * double(count_); }
   double interval() const { return interval_; }
 
@@ -55,7 +56,7 @@ class Sampling : public Observer<D> {
   double slack() const { return 1e-9 * interval_; }
 
   void take(const Jet<D>& jet, double t, const State<D>& y) {
-    sample(decomposition_->whole(at(jet, t, y)));
+    sample(at(jet, t, y));
     ++count_;
   }
 

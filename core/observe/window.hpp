@@ -8,22 +8,12 @@
 #include <numbers>
 
 #include "core/jet/collector.hpp"
+#include "core/jet/decomposition.hpp"
 #include "core/jet/dense_output.hpp"
 #include "core/jet/nozzle.hpp"
 #include "core/jet/observer.hpp"
 
 namespace treejet {
-
-/// Length of the polygon from the oldest bead to the nozzle.
-template <int D>
-double path_length(const State<D>& y, const Vec<D>& nozzle) {
-  double length = 0;
-  for (Eigen::Index i = 0; i < y.rows(); ++i) {
-    const Vec<D> upper = i + 1 < y.rows() ? position<D>(y, i + 1) : nozzle;
-    length += (position<D>(y, i) - upper).norm();
-  }
-  return length;
-}
 
 struct Window {
   double begin = 0;
@@ -41,6 +31,7 @@ class Statistics {
 
   /// Integrates the path length too, which costs a pass over the beads each step.
   void follow_path() { follows_path_ = true; }
+  bool follows_path() const { return follows_path_; }
 
   const Window& window() const { return window_; }
 
@@ -50,7 +41,7 @@ class Statistics {
   }
 
   /// Integrates over the segment from where the last call ended to t.
-  void integrate(const DenseOutput<D>& segment, double t) {
+  void integrate(const DenseOutput<D>& segment, double t, const Decomposition<D>& all = undivided<D>) {
     const double from = integrated_to_, dt = t - from;
     integrated_to_ = t;
     if (!(dt > 0)) return;
@@ -58,7 +49,7 @@ class Statistics {
     if (!follows_path_) return;
     const double middle = from + dt / 2, off_middle = dt / 2 / std::numbers::sqrt3;
     for (const double at : {middle - off_middle, middle + off_middle})
-      window_.path_length += dt / 2 * path_length<D>(segment.at(at), nozzle_.position(at));
+      window_.path_length += dt / 2 * all.path_length(segment.at(at), nozzle_.position(at));
   }
 
   void event(EventKind kind, const Jet<D>& jet) {

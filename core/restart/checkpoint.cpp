@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 
 #include "core/base/error.hpp"
 #include "core/io/atomic_file.hpp"
@@ -18,11 +19,22 @@ namespace {
 constexpr const char *newest = "checkpoint", *older = "checkpoint.old", *unfinished = "checkpoint.new";
 
 /// In front of the bytes. The number changes with the layout of what follows.
-constexpr std::string_view title = "treejet checkpoint 4\n";
+constexpr std::string_view title = "treejet checkpoint 5\n";
 
 struct Seal {
   std::uint64_t byte_order = 0x0102030405060708, length = 0, checksum = 0;
 };
+
+/// In front of a record.
+struct RecordSeal {
+  std::int64_t first = 0, count = 0;
+  std::uint64_t length = 0, checksum = 0;
+};
+
+template <class T>
+std::string_view bytes_of(const T& plain) {
+  return {reinterpret_cast<const char*>(&plain), sizeof plain};
+}
 
 std::uint64_t checksum(std::string_view bytes) {
   return crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
@@ -40,41 +52,133 @@ const std::string& CheckpointParts::bytes(const std::string& name) const {
   throw FileError(fmt::format("the checkpoint does not tell the state of: {}", name));
 }
 
-Checkpoint read_checkpoint(const fs::path& file) {
-  const auto refuse = [&](std::string_view why) {
-    throw FileError(fmt::format("{}: {}", file.string(), why));
-  };
-  const std::string bytes = read_whole(file);
-  const std::string_view all = bytes;
+namespace {
+
+[[noreturn]] void refuse(const fs::path& file, std::string_view why) {
+  throw FileError(fmt::format("{}: {}", file.string(), why));
+}
+
+/// A checkpoint read from its beginning to its end, never all of it at once.
+class Reader {
+ public:
+  explicit Reader(const fs::path& file) : file_(file), stream_(file, std::ios::binary) {
+    std::error_code kind, error;
+    if (!fs::is_regular_file(file, kind)) refuse(file, "cannot be read: not a regular file");
+    size_ = fs::file_size(file, error);
+    if (error || !stream_) refuse(file, "cannot be read");
+  }
+
+  std::uint64_t left() const { return size_ - at_; }
+  std::string bytes(std::uint64_t length) {
+    if (left() < length) refuse(file_, fmt::format("cut short: {} of {} bytes", left(), length));
+    std::string found(length, '\0');
+    stream_.read(found.data(), static_cast<std::streamsize>(length));
+    if (!stream_) refuse(file_, "cannot be read");
+    at_ += length;
+    return found;
+  }
+  std::string sealed(std::uint64_t length, std::uint64_t sum) {
+    std::string found = bytes(length);
+    if (checksum(found) != sum) refuse(file_, "damaged: wrong checksum");
+    return found;
+  }
+  template <class T>
+  T plain() {
+    T value;
+    std::memcpy(&value, bytes(sizeof value).data(), sizeof value);
+    return value;
+  }
+  void pass_over(std::uint64_t length) {
+    if (left() < length) refuse(file_, fmt::format("cut short: {} of {} bytes", left(), length));
+    stream_.seekg(static_cast<std::streamoff>(length), std::ios::cur);
+    at_ += length;
+  }
+
+ private:
+  fs::path file_;
+  std::ifstream stream_;
+  std::uint64_t size_ = 0, at_ = 0;
+};
+
+/// The head, up to the records.
+Checkpoint read_head(Reader& reader, const fs::path& file) {
+  const std::string begin = reader.bytes(std::min<std::uint64_t>(title.size(), reader.left()));
   constexpr std::string_view ours = title.substr(0, title.rfind(' '));
-  if (!all.starts_with(title.substr(0, std::min(title.size(), all.size()))))
-    refuse(all.starts_with(ours) ? "a checkpoint of another version of Treejet, which this one cannot read"
-                                 : "not a checkpoint of Treejet");
-  Seal seal;
-  if (all.size() < title.size() + sizeof seal) refuse("cut short");
-  std::memcpy(&seal, all.data() + title.size(), sizeof seal);
-  const std::string_view payload = all.substr(title.size() + sizeof seal);
-  if (seal.byte_order != Seal().byte_order) refuse("a checkpoint of a machine with another byte order");
-  if (payload.size() < seal.length)
-    refuse(fmt::format("cut short: {} of {} bytes", payload.size(), seal.length));
-  if (payload.size() > seal.length || checksum(payload) != seal.checksum) refuse("damaged: wrong checksum");
+  if (!begin.starts_with(title.substr(0, begin.size())))
+    refuse(file, begin.starts_with(ours)
+                     ? "a checkpoint of another version of Treejet, which this one cannot read"
+                     : "not a checkpoint of Treejet");
+  if (begin.size() < title.size() || reader.left() < sizeof(Seal)) refuse(file, "cut short");
+  const auto seal = reader.plain<Seal>();
+  if (seal.byte_order != Seal().byte_order) refuse(file, "a checkpoint of a machine with another byte order");
   Checkpoint checkpoint;
-  const std::string body(payload);
+  const std::string body = reader.sealed(seal.length, seal.checksum);
   Archive archive(body);
   archive(checkpoint);
   archive.expect_end();
+  checkpoint.file = file;
   return checkpoint;
 }
 
-Checkpoint newest_checkpoint(const fs::path& directory, std::vector<std::string>& warnings) {
+/// The records that are wanted: all `take` needs to know of the others is how many there are.
+void read_records(Reader& reader, std::int64_t records,
+                  const std::function<bool(std::int64_t record, const RecordSeal&)>& wanted,
+                  const std::function<void(const PieceRecord&)>& take) {
+  for (std::int64_t k = 0; k < records; ++k) {
+    const auto seal = reader.plain<RecordSeal>();
+    if (wanted(k, seal))
+      take({seal.first, seal.count, reader.sealed(seal.length, seal.checksum)});
+    else
+      reader.pass_over(seal.length);
+  }
+}
+
+}  // namespace
+
+Checkpoint read_checkpoint(const fs::path& file, const Readers& readers) {
+  Reader reader(file);
+  Checkpoint checkpoint = read_head(reader, file);
+  read_records(
+      reader, checkpoint.records,
+      [&](std::int64_t k, const RecordSeal&) { return k % readers.count == readers.number; },
+      [](const PieceRecord&) {});
+  if (reader.left() > 0) refuse(file, "damaged: bytes behind its end");
+  return checkpoint;
+}
+
+ReadRecords records_of(const Checkpoint& checkpoint) {
+  return [file = checkpoint.file, records = checkpoint.records](const auto& wanted, const auto& take) {
+    Reader reader(file);
+    read_head(reader, file);
+    read_records(
+        reader, records, [&](std::int64_t, const RecordSeal& seal) { return wanted(seal.first, seal.count); },
+        take);
+  };
+}
+
+/// Null, and why, if it is not sound for all readers.
+std::optional<Checkpoint> sound_checkpoint(const fs::path& file, std::vector<std::string>& warnings,
+                                           const Readers& readers) {
+  std::optional<Checkpoint> checkpoint;
+  std::string why = fmt::format("{}: not sound as another process reads it", file.string());
+  try {
+    checkpoint = read_checkpoint(file, readers);
+  } catch (const FileError& failure) {
+    why = failure.what();
+  }
+  if (readers.all(checkpoint.has_value())) return checkpoint;
+  warnings.push_back(why);
+  return {};
+}
+
+Checkpoint newest_checkpoint(const fs::path& directory, std::vector<std::string>& warnings,
+                             const Readers& readers) {
   for (const char* name : {newest, older}) {
     std::error_code error;
-    if (!fs::exists(directory / name, error)) continue;
-    try {
-      return read_checkpoint(directory / name);
-    } catch (const FileError& failure) {
-      warnings.push_back(failure.what());
-    }
+    // where one of the readers sees it, all look
+    if (readers.all(!fs::exists(directory / name, error))) continue;
+    if (auto checkpoint = sound_checkpoint(directory / name, warnings, readers))
+      return *std::move(checkpoint);
   }
   if (warnings.empty())
     throw FileError(fmt::format("{}: no checkpoint here; a run that has come to its end leaves none",
@@ -95,7 +199,8 @@ Checkpoints::Checkpoints(fs::path directory, OutputFile::Existing existing)
   }
 }
 
-void Checkpoints::write(Checkpoint& checkpoint) const {
+void Checkpoints::write(Checkpoint& checkpoint,
+                        const std::function<void(const WriteRecord&)>& give_records) const {
   Archive archive;
   archive(checkpoint);
   const std::string payload = std::move(archive).bytes();
@@ -104,8 +209,13 @@ void Checkpoints::write(Checkpoint& checkpoint) const {
   fs::remove(directory_ / unfinished, error);  // a link goes itself, not what it leads to
   OutputFile file(directory_ / unfinished, OutputFile::Existing::keep);
   file.write(title);
-  file.write({reinterpret_cast<const char*>(&seal), sizeof seal});
+  file.write(bytes_of(seal));
   file.write(payload);
+  give_records([&file](const PieceRecord& record) {
+    const auto& [first, count, bytes] = record;
+    file.write(bytes_of(RecordSeal{first, count, bytes.size(), checksum(bytes)}));
+    file.write(bytes);
+  });
   file.sync();
   if (fs::exists(directory_ / newest, error)) put_in_place(directory_ / newest, directory_ / older);
   put_in_place(directory_ / unfinished, directory_ / newest);

@@ -5,14 +5,18 @@
 /// another name, forced to disk and only then renamed, so that at any moment at least one is whole; a run
 /// that has come to its end leaves none. The file: a line of text with the format's number, the length and
 /// the checksum (CRC-32) of what follows, and that, as core/base/archive.hpp writes it: which program and
-/// deck made it, and the state in named parts.
+/// deck made it, and the state in named parts. Of a chain that ranks hold in pieces the beads come behind
+/// that, in records with lengths and checksums of their own (core/jet/decomposition.hpp), so that nobody ever
+/// holds more of them than a record and what is his.
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "core/base/archive.hpp"
 #include "core/base/output_file.hpp"
+#include "core/jet/decomposition.hpp"
 
 namespace treejet {
 
@@ -34,6 +38,13 @@ class CheckpointParts {
       archive(object);
       parts_.push_back({name, std::move(archive).bytes()});
     }
+  }
+
+  /// Into an object whose state is what a part begins with; the rest belongs to another process.
+  template <class T>
+  void beginning_of_part(const std::string& name, T& object) const {
+    Archive archive(bytes(name));
+    archive(object);
   }
 
   bool has(const std::string& name) const;
@@ -60,18 +71,31 @@ struct Checkpoint {
   std::string program;  ///< what wrote it
   std::string deck_name, deck_text;
   std::vector<std::string> overrides;
-  double t = 0;  ///< s
+  double t = 0;              ///< s
+  std::int64_t records = 0;  ///< that follow
   CheckpointParts state;
+  std::filesystem::path file;  ///< that it was read from
 
-  void visit(Archive& archive) { archive(program, deck_name, deck_text, overrides, t, state); }
+  void visit(Archive& archive) { archive(program, deck_name, deck_text, overrides, t, records, state); }
 };
 
-/// The newest sound checkpoint of a directory. `warnings` gets a line for each that is newer but not sound;
-/// FileError if none is.
-Checkpoint newest_checkpoint(const std::filesystem::path& directory, std::vector<std::string>& warnings);
+/// Several processes that read the same checkpoint: each verifies its share of the records, and it is sound
+/// if all say so.
+struct Readers {
+  int number = 0, count = 1;
+  std::function<bool(bool sound)> all = [](bool sound) { return sound; };
+};
+
+/// The newest sound checkpoint of a directory, the same for all readers. `warnings` gets a line for each that
+/// is newer but not sound; FileError if none is.
+Checkpoint newest_checkpoint(const std::filesystem::path& directory, std::vector<std::string>& warnings,
+                             const Readers& readers = {});
 
 /// A checkpoint file. FileError if it is cut short, damaged, or none of ours.
-Checkpoint read_checkpoint(const std::filesystem::path& file);
+Checkpoint read_checkpoint(const std::filesystem::path& file, const Readers& readers = {});
+
+/// The records of a checkpoint that has been read. FileError as above.
+ReadRecords records_of(const Checkpoint& checkpoint);
 
 /// The checkpoints of one run.
 class Checkpoints {
@@ -79,7 +103,10 @@ class Checkpoints {
   /// FileError if the directory holds checkpoints already and these are to be kept. Changes nothing.
   Checkpoints(std::filesystem::path directory, OutputFile::Existing existing);
 
-  void write(Checkpoint& checkpoint) const;
+  /// `give_records` hands over as many records as the checkpoint says.
+  void write(
+      Checkpoint& checkpoint,
+      const std::function<void(const WriteRecord&)>& give_records = [](const WriteRecord&) {}) const;
   /// The run has come to its end, or takes the place of another.
   void remove() const;
 

@@ -21,10 +21,11 @@ std::string own_physics(const std::string& program) {
 
 }  // namespace
 
-Resumption resumption(const std::filesystem::path& directory, const std::string& program) {
+Resumption resumption(const std::filesystem::path& directory, const std::string& program,
+                      const Readers& readers) {
   Resumption found;
   Checkpoint& c = found.checkpoint;
-  c = newest_checkpoint(directory, found.warnings);
+  c = newest_checkpoint(directory, found.warnings, readers);
   if (own_physics(c.program) != own_physics(program))
     throw InputError(
         fmt::format("{}: the run has {}, this program {}: resume it with the program that began it",

@@ -13,7 +13,8 @@ struct Resumption {
 };
 
 /// FileError without a sound checkpoint; InputError if it is of other physics than the program has.
-Resumption resumption(const std::filesystem::path& directory, const std::string& program);
+Resumption resumption(const std::filesystem::path& directory, const std::string& program,
+                      const Readers& readers = {});
 
 /// InputError that names the directives in which a deck differs from that of the checkpoint.
 void expect_same(const Deck& given, const Deck& in_checkpoint);

@@ -1,30 +1,31 @@
 #include "forces/distributed/chain_decomposition.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+
+#include "core/base/error.hpp"
 
 namespace treejet {
 
 namespace {
 
 constexpr int least_share = 4;
+/// Beads that are on their way to a file at a time: a few MB.
+constexpr int portion_beads = 16'384;
 
-/// Beads on their way, a column each: state, mass, charge, volume.
-using Beads = Eigen::ArrayXXd;
 constexpr auto constants = {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume};
 
-Eigen::Index words(const Jet<3>& jet) {
-  return jet.y.cols() + static_cast<Eigen::Index>(constants.size());
-}
+/// Beads on their way, a column each: state, mass, charge, volume, what is carried along.
+using Beads = Eigen::ArrayXXd;
 
-Beads beads_of(const Jet<3>& jet, Rows rows) {
-  Beads some(words(jet), rows.size());
-  Eigen::Index word = jet.y.cols();
-  some.topRows(word) = jet.y.middleRows(rows.first, rows.size()).transpose();
-  for (auto each : constants) some.row(word++) = (jet.*each).segment(rows.first, rows.size()).transpose();
-  return some;
+Beads beads_of(const Jet<3>& jet, const Eigen::ArrayXXd& carried) {
+  const Eigen::Index n = jet.size(), columns = jet.y.cols();
+  Beads all(columns + static_cast<Eigen::Index>(constants.size()) + carried.cols(), n);
+  all.topRows(columns) = jet.y.transpose();
+  Eigen::Index word = columns;
+  for (auto each : constants) all.row(word++) = (jet.*each).transpose();
+  all.bottomRows(carried.cols()) = carried.transpose();
+  return all;
 }
 
 void set_beads(Jet<3>& jet, const Beads& all) {
@@ -33,77 +34,69 @@ void set_beads(Jet<3>& jet, const Beads& all) {
   for (auto each : constants) jet.*each = all.row(word++).transpose();
 }
 
-Beads joined(const std::vector<Beads>& parts) {
-  Eigen::Index count = 0;
-  for (const Beads& part : parts) count += part.cols();
-  Beads all(parts.front().rows(), count);
-  for (Eigen::Index at = 0; const Beads& part : parts) {
-    all.middleCols(at, part.cols()) = part;
-    at += part.cols();
-  }
+/// Numbers of these beads, one by one.
+std::vector<int> numbers(const std::vector<Stretch>& stretches) {
+  std::vector<int> all;
+  for (const Stretch& s : stretches)
+    for (int i = s.first; i < s.last; ++i) all.push_back(i);
   return all;
 }
 
-std::vector<double> letter(const Beads& some) {
-  return {some.data(), some.data() + some.size()};
-}
+/// A jet and what is carried along, as a checkpoint has them.
+struct Saved {
+  Jet<3> jet;
+  Eigen::ArrayXXd carried = Eigen::ArrayXXd(0, 0);
+  void visit(Archive& state) { state(jet, carried); }
+};
 
-Beads read(const std::vector<double>& letter, Eigen::Index words) {
-  return Eigen::Map<const Beads>(letter.data(), words, static_cast<Eigen::Index>(letter.size()) / words);
+void expect_complete(const Saved& saved, std::int64_t count, Eigen::Index columns, Eigen::Index carried) {
+  const Jet<3>& jet = saved.jet;
+  bool complete = jet.size() == count && jet.slope.rows() == count && jet.y.cols() == columns &&
+                  jet.slope.cols() == columns && saved.carried.cols() == carried &&
+                  (carried == 0 || saved.carried.rows() == count);
+  for (auto each : constants) complete = complete && (jet.*each).size() == count;
+  if (!complete) throw FileError("the checkpoint has beads without a mass, a charge, a volume or a velocity");
 }
 
 }  // namespace
 
-ChainDecomposition::ChainDecomposition(int beads, const Ranks& ranks) : ranks_(ranks) {
+ChainDecomposition::ChainDecomposition(int beads, const Ranks& ranks, Ends ends)
+    : ranks_(ranks), ends_(ends) {
   cut(beads);
 }
 
 /// The beads of a rank that is not behind the end.
-int ChainDecomposition::fair_share(int beads) const {
-  return std::max(least_share, (beads + ranks_.size() - 1) / ranks_.size());
+static int fair_share(int beads, int ranks) {
+  return std::max(least_share, (beads + ranks - 1) / ranks);
 }
 
 void ChainDecomposition::cut(int beads) {
-  const int share = fair_share(beads);
-  counts_.resize(index(ranks_.size()));
-  for (int k = 0; k < ranks_.size(); ++k)
-    counts_[index(k)] = static_cast<int>(std::clamp<std::int64_t>(beads - std::int64_t{k} * share, 0, share));
-}
-
-/// The number of the first bead of a rank.
-int ChainDecomposition::first(int rank) const {
-  return std::accumulate(counts_.begin(), counts_.begin() + rank, 0);
-}
-
-/// The rank that holds the oldest (0) or youngest (1) bead; -1 if there is none.
-int ChainDecomposition::end(int which) const {
-  for (int k = 0; k < ranks_.size(); ++k) {
-    const int rank = which == 0 ? k : ranks_.size() - 1 - k;
-    if (counts_[index(rank)] > 0) return rank;
-  }
-  return -1;
+  const std::int64_t share = fair_share(beads, ranks_.size());
+  layout_.ends = ends_;
+  layout_.borders.clear();
+  for (int k = 0; k <= ranks_.size(); ++k)
+    layout_.borders.push_back(static_cast<int>(std::min<std::int64_t>(beads, k * share)));
 }
 
 int ChainDecomposition::neighbour(int step) const {
   if (own().size() == 0) return -1;
   for (int rank = ranks_.rank() + step; rank >= 0 && rank < ranks_.size(); rank += step)
-    if (counts_[index(rank)] > 0) return rank;
+    if (layout_.own(rank).size() > 0) return rank;
   return -1;
 }
 
 Rows ChainDecomposition::own() const {
-  const int count = counts_[index(ranks_.rank())];
-  const int begin = count > 0 && !has_oldest() ? 1 : 0;
-  return {begin, begin + count};
+  const Stretch mine = layout_.own(ranks_.rank());
+  const int begin = mine.size() > 0 ? place_of(mine.first, layout_.here(ranks_.rank())) : 0;
+  return {begin, begin + mine.size()};
+}
+
+std::pair<Eigen::Index, Eigen::Index> ChainDecomposition::own_rows(Eigen::Index) const {
+  return {own().first, own().last};
 }
 
 std::vector<int> ChainDecomposition::rows() const {
-  std::vector<int> numbers;
-  const int begin = first(ranks_.rank()), own = counts_[index(ranks_.rank())];
-  if (total() > 0 && !has_oldest()) numbers.push_back(0);
-  for (int i = begin; i < begin + own; ++i) numbers.push_back(i);
-  if (total() > 1 && !has_youngest()) numbers.push_back(total() - 1);
-  return numbers;
+  return numbers(layout_.here(ranks_.rank()));
 }
 
 /// What is not a number counts as infinite: a maximum would let it pass.
@@ -111,63 +104,233 @@ double ChainDecomposition::greatest(double error) const {
   return ranks_.greatest(std::isnan(error) ? std::numeric_limits<double>::infinity() : error);
 }
 
-/// The new bead belongs to the rank that held the youngest one; for the others it takes the place of the copy
-/// of that, unless this was the copy of the oldest one, too.
-void ChainDecomposition::after_release(Jet<3>& jet) {
-  const int n = static_cast<int>(jet.size());
-  if (!has_youngest() && total() > 1)
-    set_beads(jet, joined({beads_of(jet, {0, n - 2}), beads_of(jet, {n - 1, n})}));
-  ++counts_[index(end(1))];
-  if (out_of_balance()) recut(jet);
+void ChainDecomposition::add_up(Eigen::Ref<Eigen::ArrayXd> numbers) const {
+  ranks_.sum({numbers.data(), static_cast<std::size_t>(numbers.size())});
 }
 
-/// All but the rank that holds it need a copy of what is now the oldest bead, unless it is the youngest one,
-/// too.
+/// To their holders, too: a sum turns -0 into 0.
+void ChainDecomposition::share_ends(Eigen::Ref<Eigen::ArrayXXd> table) const {
+  const std::vector<Stretch> here = layout_.here(ranks_.rank());
+  const std::vector<int> ends = numbers(layout_.at_ends());
+  const Stretch mine = layout_.own(ranks_.rank());
+  Beads shared = Beads::Zero(table.cols(), static_cast<Eigen::Index>(ends.size()));
+  for (Eigen::Index k = 0; const int bead : ends) {
+    if (bead >= mine.first && bead < mine.last) shared.col(k) = table.row(place_of(bead, here)).transpose();
+    ++k;
+  }
+  ranks_.sum({shared.data(), static_cast<std::size_t>(shared.size())});
+  for (Eigen::Index k = 0; const int bead : ends)
+    table.row(place_of(bead, here)) = shared.col(k++).transpose();
+}
+
+/// The new bead, a row of every rank so far, belongs to the one that held the youngest.
+void ChainDecomposition::after_release(Jet<3>& jet) {
+  layout_.add_youngest();
+  Layout had = layout_;
+  ++had.ends.young;
+  arrange(jet, had);
+  recut_if_due(jet);
+}
+
 void ChainDecomposition::after_removal(Jet<3>& jet) {
-  --counts_[index(end(0))];
+  layout_.drop_oldest();
   if (total() == 0) return;
-  Beads oldest = Beads::Zero(words(jet), 1);
-  if (has_oldest()) oldest = beads_of(jet, {0, 1});
-  ranks_.sum({oldest.data(), static_cast<std::size_t>(oldest.size())});
-  if (!has_oldest() && total() > 1)
-    set_beads(jet, joined({oldest, beads_of(jet, {0, static_cast<int>(jet.size())})}));
-  if (out_of_balance()) recut(jet);
+  Layout had = layout_;
+  --had.ends.old;
+  arrange(jet, had);
+  recut_if_due(jet);
 }
 
 /// An arriving bead is looked at together with the one above it: both on one rank.
 bool ChainDecomposition::out_of_balance() const {
-  const int most = *std::max_element(counts_.begin(), counts_.end());
-  const int share = fair_share(total());
-  return most > share + share / 5 + 1 || (total() > 1 && counts_[index(end(0))] < 2);
+  const int share = fair_share(total(), ranks_.size());
+  return layout_.most_own() > share + share / 5 + 1 ||
+         (total() > 1 && layout_.own(layout_.holder(0)).size() < 2);
 }
 
-void ChainDecomposition::recut(Jet<3>& jet) {
-  const int n = static_cast<int>(jet.size()), me = ranks_.rank();
-  const Beads oldest = beads_of(jet, {0, 1}), youngest = beads_of(jet, {n - 1, n});
-  const Rows mine = own();
-  const int had = first(me);
+void ChainDecomposition::recut_if_due(Jet<3>& jet) {
+  if (!out_of_balance()) return;
+  const Layout had = layout_;
   cut(total());
-  Ranks::Letters letters(index(ranks_.size()));
-  for (int k = 0; k < ranks_.size(); ++k) {
-    const int begin = std::max(had, first(k)), end = std::min(had + mine.size(), first(k + 1));
-    if (begin < end)
-      letters[index(k)] = letter(beads_of(jet, {mine.first + begin - had, mine.first + end - had}));
-  }
-  std::vector<Beads> parts;
-  if (!has_oldest()) parts.push_back(oldest);
-  for (const auto& received : ranks_.exchange(letters)) parts.push_back(read(received, words(jet)));
-  if (!has_youngest()) parts.push_back(youngest);
-  set_beads(jet, joined(parts));
+  arrange(jet, had);
   ++recuts_;
 }
 
-Jet<3> ChainDecomposition::whole(Jet<3>&& jet) const {
+/// From the rows of another layout to those of this one: every rank knows what each lacks, and sends what is
+/// its own of that.
+void ChainDecomposition::arrange(Jet<3>& jet, const Layout& had) {
+  const int me = ranks_.rank();
+  const std::vector<Stretch> mine = had.here(me);
+  const Beads beads = beads_of(jet, carried_(0, jet.size()));
+  const auto lacking = [&](int rank) { return without(layout_.here(rank), had.here(rank)); };
+  bool any = false;
   Ranks::Letters letters(index(ranks_.size()));
-  letters[0] = letter(beads_of(jet, own()));
-  std::vector<Beads> parts;
-  for (const auto& received : ranks_.exchange(letters)) parts.push_back(read(received, words(jet)));
-  if (ranks_.first()) set_beads(jet, joined(parts));
-  return std::move(jet);
+  for (int rank = 0; rank < ranks_.size(); ++rank)
+    for (const Stretch& s : lacking(rank)) {
+      any = true;
+      const Stretch mine_of_it = common(s, had.own(me));
+      if (mine_of_it.size() == 0) continue;
+      const double* const from = beads.col(place_of(mine_of_it.first, mine)).data();
+      letters[index(rank)].insert(letters[index(rank)].end(), from, from + mine_of_it.size() * beads.rows());
+    }
+  std::vector<double> received;  // ascending, as the ranks are
+  if (any)
+    for (const auto& letter : ranks_.exchange(letters))
+      received.insert(received.end(), letter.begin(), letter.end());
+
+  const std::vector<int> wanted = rows();
+  const Eigen::Index words = beads.rows();
+  Beads all(words, static_cast<Eigen::Index>(wanted.size()));
+  const double* next = received.data();
+  for (Eigen::Index k = 0; k < all.cols(); ++k) {
+    const int bead = wanted[static_cast<std::size_t>(k)];
+    const bool here = std::any_of(mine.begin(), mine.end(),
+                                  [&](const Stretch& s) { return bead >= s.first && bead < s.last; });
+    if (here) {
+      all.col(k) = beads.col(place_of(bead, mine));
+    } else {
+      all.col(k) = Eigen::Map<const Eigen::ArrayXd>(next, words);
+      next += words;
+    }
+  }
+  set_beads(jet, all);
+  set_carried_(all.bottomRows(words - jet.y.cols() - Eigen::Index{constants.size()}).transpose());
+}
+
+/// Every element belongs to the bead at its lower end.
+double ChainDecomposition::path_length(const State<3>& y, const Vec<3>& nozzle) const {
+  const Rows own = this->own();
+  Ranks::Letters letters(index(ranks_.size()));
+  if (const int to = older(); to >= 0) {
+    const Vec<3> r = position<3>(y, own.first);
+    letters[index(to)] = {r[0], r[1], r[2]};
+  }
+  const Ranks::Letters received = ranks_.exchange(letters);
+  double length = 0;
+  if (own.size() > 0) {
+    const int from = younger();
+    const Vec<3> end = from < 0 ? nozzle : Vec<3>(received[index(from)].data());
+    length = treejet::path_length<3>(y.middleRows(own.first, own.size()), end);
+  }
+  ranks_.sum({&length, 1});
+  return length;
+}
+
+namespace {
+
+/// All beads up to `most`, in the order in which files have them.
+void for_each_portion(const Layout& layout, std::int64_t most,
+                      const std::function<void(int rank, Stretch beads)>& f) {
+  for (int rank = 0; rank < layout.ranks(); ++rank) {
+    const auto end = static_cast<int>(std::min<std::int64_t>(layout.own(rank).last, most));
+    for (int begin = layout.own(rank).first; begin < end; begin += portion_beads)
+      f(rank, {begin, std::min(begin + portion_beads, end)});
+  }
+}
+
+}  // namespace
+
+/// Of a rank's beads: with slopes, and what is carried along, if the jet has slopes.
+std::string ChainDecomposition::portion(const Jet<3>& jet, int rank, Stretch beads) const {
+  Saved some;
+  if (rank == ranks_.rank()) {
+    const int row = own().first + beads.first - layout_.own(rank).first, n = beads.size();
+    some.jet.t = jet.t;
+    some.jet.y = jet.y.middleRows(row, n);
+    for (auto each : constants) some.jet.*each = (jet.*each).segment(row, n);
+    some.jet.removed = jet.removed + beads.first;
+    if (jet.slope.rows() == jet.y.rows()) {
+      some.jet.slope = jet.slope.middleRows(row, n);
+      some.carried = carried_(row, n);
+    }
+  }
+  Archive archive;
+  archive(some);
+  return ranks_.to_first(rank, std::move(archive).bytes());
+}
+
+void ChainDecomposition::in_portions(const Jet<3>& jet, std::int64_t most,
+                                     const std::function<void(const Jet<3>& some)>& take) const {
+  for_each_portion(layout_, most, [&](int rank, Stretch beads) {
+    const std::string bytes = portion(jet, rank, beads);
+    if (!ranks_.first()) return;
+    Saved some;
+    Archive archive(bytes);
+    archive(some);
+    take(some.jet);
+  });
+}
+
+void ChainDecomposition::visit(Jet<3>& jet, Archive& state) {
+  std::vector<int> borders = layout_.borders;
+  Eigen::Index columns = jet.y.cols();
+  state(jet.t, jet.held, jet.removed, columns, borders, recuts_);
+  if (!state.reading()) return;
+  if (columns != jet.y.cols() || borders.empty() || borders[0] != 0 ||
+      !std::is_sorted(borders.begin(), borders.end()))
+    throw FileError("the checkpoint's jet cannot be cut into pieces");
+  cut(borders.back());
+  cut_as_saved_ = borders.size() == layout_.borders.size();
+  if (cut_as_saved_) layout_.borders = borders;
+  for (auto* table : {&jet.y, &jet.slope}) table->resize(0, columns);
+  for (auto each : constants) (jet.*each).resize(0);
+}
+
+std::int64_t ChainDecomposition::records() const {
+  std::int64_t count = ranks_.size();
+  for_each_portion(layout_, total(), [&](int, Stretch) { ++count; });
+  return count;
+}
+
+void ChainDecomposition::write(const Jet<3>& jet, const WriteRecord& write) const {
+  for_each_portion(layout_, total(), [&](int rank, Stretch beads) {
+    const std::string bytes = portion(jet, rank, beads);
+    if (ranks_.first()) write({beads.first, beads.size(), bytes});
+  });
+  for (int rank = 0; rank < ranks_.size(); ++rank) {
+    Archive archive;
+    if (own_state_ && rank == ranks_.rank()) own_state_(archive);
+    const std::string bytes = ranks_.to_first(rank, std::move(archive).bytes());
+    if (ranks_.first()) write({rank, 0, bytes});
+  }
+}
+
+void ChainDecomposition::read(Jet<3>& jet, const ReadRecords& records) {
+  const std::vector<Stretch> here = layout_.here(ranks_.rank());
+  const Eigen::Index n = place_of(total(), here), columns = jet.y.cols();
+  Eigen::ArrayXXd carried(n, carried_(0, 0).cols());
+  for (auto* table : {&jet.y, &jet.slope}) table->resize(n, columns);
+  for (auto each : constants) (jet.*each).resize(n);
+  Eigen::Index found = 0;
+  const auto parts_here = [&](std::int64_t first, std::int64_t count) {
+    std::vector<Stretch> parts;
+    for (const Stretch& s : here) {
+      const Stretch part = common(s, {static_cast<int>(first), static_cast<int>(first + count)});
+      if (part.size() > 0) parts.push_back(part);
+    }
+    return parts;
+  };
+  const auto wanted = [&](std::int64_t first, std::int64_t count) {
+    return count > 0 ? !parts_here(first, count).empty()
+                     : cut_as_saved_ && own_state_ && first == ranks_.rank();
+  };
+  records(wanted, [&](const PieceRecord& record) {
+    Archive archive(record.bytes);
+    if (record.count == 0) return own_state_(archive), archive.expect_end();
+    Saved some;
+    archive(some);
+    expect_complete(some, record.count, columns, carried.cols());
+    for (const Stretch& part : parts_here(record.first, record.count)) {
+      const Eigen::Index row = place_of(part.first, here), from = part.first - record.first, m = part.size();
+      jet.y.middleRows(row, m) = some.jet.y.middleRows(from, m);
+      jet.slope.middleRows(row, m) = some.jet.slope.middleRows(from, m);
+      for (auto each : constants) (jet.*each).segment(row, m) = (some.jet.*each).segment(from, m);
+      if (carried.cols() > 0) carried.middleRows(row, m) = some.carried.middleRows(from, m);
+      found += m;
+    }
+  });
+  if (found != n) throw FileError("the checkpoint lacks beads of the jet");
+  set_carried_(carried);
 }
 
 }  // namespace treejet

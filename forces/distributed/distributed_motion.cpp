@@ -22,7 +22,7 @@ void DistributedMotion::operator()(const Jet<3>& jet, double t, const State<3>& 
   local_(extended_, t, extended_.y, slope_);
   slope.middleRows(own.first, own.size()) = slope_.middleRows(first_, own.size());
   if (solver_) repel(own, slope);
-  share_ends(slope);
+  pieces_.share_ends(slope);
 }
 
 /// The own beads and, from the ranks next along the chain, one on either side.
@@ -73,17 +73,6 @@ void DistributedMotion::repel(Rows own, State<3>& slope) {
     slope.col(velocity_column<3> + k).segment(own.first, own.size()) +=
         Q_ * chain.point_charge.segment(first_, own.size()) * chain.inverse_mass.segment(first_, own.size()) *
         field_.col(k).head(own.size());
-}
-
-/// To their owners, too: a sum turns -0 into 0.
-void DistributedMotion::share_ends(State<3>& slope) const {
-  Eigen::Array<double, Eigen::Dynamic, 2> ends = decltype(ends)::Zero(slope.cols(), 2);
-  const Eigen::Index last = slope.rows() - 1;
-  if (pieces_.has_oldest()) ends.col(0) = slope.row(0).transpose();
-  if (pieces_.has_youngest()) ends.col(1) = slope.row(last).transpose();
-  pieces_.ranks().sum({ends.data(), static_cast<std::size_t>(ends.size())});
-  slope.row(0) = ends.col(0).transpose();
-  slope.row(last) = ends.col(1).transpose();
 }
 
 }  // namespace treejet

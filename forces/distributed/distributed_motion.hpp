@@ -26,6 +26,12 @@ class DistributedMotion final : public RightHandSide<3> {
     solver_.emplace(request, default_isa(), TreeRanks{.subdomains = pieces_.ranks()});
   }
 
+  /// What the next field is made from beside the points, of this rank and this cut. On other ranks the field
+  /// is looked at anew.
+  void visit_field(Archive& state) {
+    if (solver_) state(*solver_);
+  }
+
   void operator()(const Jet<3>& jet, double t, const State<3>& y, State<3>& slope) override;
   double smooth_from(double t) override { return local_.smooth_from(t); }
 
@@ -35,7 +41,6 @@ class DistributedMotion final : public RightHandSide<3> {
  private:
   void extend(const Jet<3>& jet, const State<3>& y);
   void repel(Rows own, State<3>& slope);
-  void share_ends(State<3>& slope) const;
 
   EquationsOfMotion<3>& local_;
   const ChainDecomposition& pieces_;

@@ -209,6 +209,7 @@ void hold_in_pieces(Scene<3>& scene, const Parameters& p, int beads, const JetOf
   auto pieces = std::make_unique<ChainDecomposition>(beads, ranks);
   auto motion = std::make_unique<DistributedMotion>(*scene.motion, *pieces, threads);
   if (groups(p).Q != 0) motion->add_coulomb(groups(p).Q, coulomb_request(p, /*points_move*/ true));
+  pieces->keep([field = motion.get()](Archive& state) { field->visit_field(state); });
   scene.jet = jet_of(pieces->rows());
   scene.pieces_error = motion->error();
   scene.pieces_motion = std::move(motion);

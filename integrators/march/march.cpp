@@ -201,7 +201,8 @@ void March<D>::visit(Archive& state) {
   state(piece_begin_);
   if (state.reading())
     piece_end_ = parts_.motion.smooth_from(piece_begin_);  // before it reads what it remembers
-  state(jet_, parts_.motion, parts_.control, forecast_, effort_, under_way_);
+  parts_.decomposition.visit(jet_, state);
+  state(parts_.motion, parts_.control, forecast_, effort_, under_way_);
   if (!state.reading()) return;
   const auto n = jet_.size();
   const bool alike = jet_.mass.size() == n && jet_.charge.size() == n && jet_.volume.size() == n &&

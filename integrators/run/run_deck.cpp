@@ -33,26 +33,19 @@ std::string workers_description(const Ranks& ranks, Threads threads) {
 }
 
 /// Ranks see signals at different steps and have clocks of their own: the clock of the first one counts, and
-/// all follow the strongest request. A jet in pieces writes no checkpoint and is stopped by none.
+/// all follow the strongest request.
 class StopVote {
  public:
-  StopVote(const Parameters& p, const Arguments& a, const Ranks& ranks) : ranks_(ranks) {
-    if (p.parallel == ParallelData::replicated)
-      signals_.emplace(ranks.first() ? StopSignals::Setting{p.checkpoint, a.walltime}
-                                     : StopSignals::Setting{});
-    else if (a.walltime)
-      throw InputError("--walltime needs a checkpoint, and parallel distributed writes none");
-  }
+  StopVote(const Parameters& p, const Arguments& a, const Ranks& ranks)
+      : ranks_(ranks),
+        signals_(ranks.first() ? StopSignals::Setting{p.checkpoint, a.walltime} : StopSignals::Setting{}) {}
 
-  StopRequest operator()() {
-    return signals_ ? StopRequest{ranks_.greatest(static_cast<int>(signals_->stop_request()))}
-                    : StopRequest::go_on;
-  }
-  std::string reason() const { return signals_ ? signals_->reason() : ""; }
+  StopRequest operator()() { return StopRequest{ranks_.greatest(static_cast<int>(signals_.stop_request()))}; }
+  std::string reason() const { return signals_.reason(); }
 
  private:
   const Ranks& ranks_;
-  std::optional<StopSignals> signals_;
+  StopSignals signals_;
 };
 
 template <int D>
@@ -95,6 +88,11 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysi
   return straight ? run<1>(deck, a, ranks, own, checkpoint) : run<3>(deck, a, ranks, own, checkpoint);
 }
 
+/// All ranks, which go on from the same checkpoint.
+Readers readers(const Ranks& ranks) {
+  return {ranks.rank(), ranks.size(), [ranks](bool sound) { return ranks.greatest(sound ? 0 : 1) == 0; }};
+}
+
 /// Whether the run in a directory has come to its end. FileError if another process is at it.
 bool is_completed(const std::string& directory, const Ranks& ranks) {
   std::error_code error;
@@ -126,7 +124,7 @@ int run_deck(const Arguments& a, const Ranks& ranks, const OwnPhysics& own) {
     if (ranks.first()) fmt::print("{}: the run is already at its end\n", a.resume);
     return 0;
   }
-  Resumption stopped = resumption(a.resume, version_text(own));
+  Resumption stopped = resumption(a.resume, version_text(own), readers(ranks));
   if (ranks.first())
     for (const auto& w : stopped.warnings) fmt::print(stderr, "treejet: warning: {}\n", w);
   if (!a.deck.empty()) expect_same(read_deck(a.deck, a.overrides), stopped.deck);

@@ -38,7 +38,9 @@ Simulation<D>::Simulation(const Deck& deck, const System<D>& system, const Setti
       integration_(deck.parameters, system, outputs_.observers(), [this] { return stop_here(); }),
       march_(integration_.march) {
   if (checkpoints_ && setting_.outputs.existing == OutputFile::Existing::replace) checkpoints_->remove();
-  if (setting.resumed) visit(setting.resumed->state);
+  if (!setting.resumed) return;
+  visit(setting.resumed->state);
+  decomposition_.read(jet_, records_of(*setting.resumed));
 }
 
 template <int D>
@@ -51,12 +53,18 @@ bool Simulation<D>::finish() {
 template <int D>
 bool Simulation<D>::stop_here() {
   const StopRequest stop_request = setting_.stop_request();
-  if (stop_request == StopRequest::go_on) return false;
-  if (!checkpoints_) return stop_request == StopRequest::stop;
-  Checkpoint checkpoint{program(setting_.outputs.made_by), deck_.name, deck_.text, deck_.overrides, t(), {}};
-  visit(checkpoint.state);
-  checkpoints_->write(checkpoint);
+  if (stop_request != StopRequest::go_on) save();
   return stop_request == StopRequest::stop;
+}
+
+/// Of a jet in pieces all ranks give theirs to the one that writes.
+template <int D>
+void Simulation<D>::save() {
+  if (!checkpoints_) return decomposition_.write(jet_, {});
+  Checkpoint checkpoint{program(setting_.outputs.made_by), deck_.name, deck_.text, deck_.overrides, t(),
+                        decomposition_.records(),          {},         {}};
+  visit(checkpoint.state);
+  checkpoints_->write(checkpoint, [this](const WriteRecord& write) { decomposition_.write(jet_, write); });
 }
 
 template <int D>

@@ -43,12 +43,13 @@ class Simulation {
 
  private:
   bool stop_here();
+  void save();
   void visit(CheckpointParts& state);
 
   const Deck& deck_;
   double time_unit_;  ///< s
-  const Jet<D>& jet_;
-  const Decomposition<D>& decomposition_;
+  Jet<D>& jet_;
+  Decomposition<D>& decomposition_;
   Setting setting_;
   std::optional<DirectoryLock> lock_;       ///< before anything in the directory is touched
   std::optional<Checkpoints> checkpoints_;  ///< none if another process makes the outputs

@@ -1,6 +1,8 @@
 #pragma once
 /// The decks in examples/: the paper's cases 1, 2 and 3 are single-bead, straight-jet and pvp.
 
+#include <fmt/format.h>
+
 #include <string>
 #include <vector>
 
@@ -10,8 +12,7 @@ namespace treejet {
 
 /// The parameters of examples/NAME/input.dat with some of its directives replaced.
 inline Parameters example(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  return read_deck(std::string(TREEJET_SOURCE_DIR) + "/examples/" + name + "/input.dat", overrides)
-      .parameters;
+  return read_deck(fmt::format("{}/examples/{}/input.dat", TREEJET_SOURCE_DIR, name), overrides).parameters;
 }
 
 }  // namespace treejet

@@ -52,11 +52,11 @@ struct Run {
   Scene<D> scene;
 };
 
-/// Keeps the jet at k * interval, k = 0, 1, 2, ...; interval scaled.
+/// Keeps the whole jet at k * interval, k = 0, 1, 2, ...; interval scaled.
 template <int D>
 struct Snapshots final : Sampling<D> {
   using Sampling<D>::Sampling;
-  void sample(const Jet<D>& jet) override { jets.push_back(jet); }
+  void sample(const Jet<D>& jet) override { jets.push_back(whole<D>(this->decomposition(), jet)); }
   std::vector<Jet<D>> jets;
 };
 

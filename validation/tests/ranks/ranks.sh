@@ -104,32 +104,43 @@ ends 2 "vectors" "ranks with different vectors" "$mpiexec" "$flag" 1 "$treejet" 
 [ -e wrong ] && fail "ranks that could not begin left something behind"
 
 # a jet in pieces: the rows of the replicated one, but for the accuracy of the field
+alike() {  # WHAT DIRECTORY DIRECTORY
+  for files in "$2" "$3"; do grep -v '^#' "$files/statdat.dat" >"$files.rows"; done
+  paste "$2.rows" "$3.rows" | awk '
+    { for (k = 1; k <= NF / 2; ++k) { d = $k - $(k + NF / 2); if (d * d > 1e-12 * $k * $k + 1e-20) { print "row", NR, "column", k, $k, $(k + NF / 2); bad = 1 } } }
+    END { exit bad || NR == 0 }' >differences || fail "$1: $(head -3 differences)"
+}
 run="$treejet run deck.dat --quiet --threads 1 --force"
-sed -i -e '/^coulomb/d' -e 's/ lp / /' deck.dat
+sed -i '/^coulomb/d' deck.dat
 grep -q '^multirate' deck.dat || sed -i 's/^finish/multirate no\nfinish/' deck.dat
 $run --out one || fail "the jet that is to be cut"
 sed -i 's/^finish/coulomb tree\ncoulomb accuracy 1.d-5\nparallel distributed\nfinish/' deck.dat
 on 3 $run --out pieces 2>err || fail "a jet in pieces: $(cat err)"
-for files in one pieces; do grep -v '^#' $files/statdat.dat >$files.rows; done
-paste one.rows pieces.rows | awk '
-  { for (k = 1; k <= NF / 2; ++k) { d = $k - $(k + NF / 2); if (d * d > 1e-12 * $k * $k + 1e-20) { print "row", NR, "column", k, $k, $(k + NF / 2); bad = 1 } } }
-  END { exit bad || NR == 0 }' >differences || fail "a jet in pieces: $(head -3 differences)"
+alike "a jet in pieces" one pieces
 is "points in the trajectory of a jet in pieces" "$(head -1 pieces/traj.xyz)" "$(head -1 one/traj.xyz)"
-ends 2 "writes none" "walltime for a jet in pieces" on 2 "$treejet" run deck.dat --quiet --out wrong --walltime 600
 
-# one of the ranks is killed: the others end, and the launcher tells
-mkdir killed
-# shellcheck disable=SC2016  # the ranks' shell expands it
-on 3 sh -c 'echo $$ >killed/$$.pid; exec "$@"' rank "$treejet" run "$pvp" --quiet --set "tolerance 1.d-12" --out killed/out 2>err &
-launcher=$!
-while [ "$(ls killed/*.pid 2>/dev/null | wc -l)" -lt 3 ] || [ ! -s killed/out/statdat.dat ]; do sleep 0.1; done
-kill -9 "$(cat "$(ls killed/*.pid | tail -1)")"
-wait $launcher
-code=$?
-[ $code -ne 0 ] && [ $code -ne 124 ] || fail "a killed rank: exit code $code"
+# one of the ranks is killed: the others end, the launcher tells, and the run goes on on other ranks
 running() { for pid in killed/*.pid; do ps -o stat= -p "$(cat "$pid")"; done | grep -vc Z; }
-tries=0
-while [ "$(running)" -gt 0 ] && [ $tries -lt 50 ]; do sleep 0.1 && tries=$((tries + 1)); done
-is "ranks left running by a killed one" "$(running)" 0
+kill_one() {  # FILE COMMAND...: of three ranks, once there is this file
+  file=$1
+  shift
+  rm -rf killed && mkdir killed
+  # shellcheck disable=SC2016  # the ranks' shell expands it
+  on 3 sh -c 'echo $$ >killed/$$.pid; exec "$@"' rank "$@" 2>err &
+  launcher=$!
+  while [ "$(ls killed/*.pid 2>/dev/null | wc -l)" -lt 3 ] || [ ! -s "$file" ]; do sleep 0.01; done
+  kill -9 "$(cat "$(ls killed/*.pid | tail -1)")"
+  wait $launcher
+  code=$?
+  [ $code -ne 0 ] && [ $code -ne 124 ] || fail "a killed rank: exit code $code"
+  tries=0
+  while [ "$(running)" -gt 0 ] && [ $tries -lt 50 ]; do sleep 0.1 && tries=$((tries + 1)); done
+  is "ranks left running by a killed one" "$(running)" 0
+}
+kill_one out/statdat.dat "$treejet" run "$pvp" --quiet --set "tolerance 1.d-12" --out out
+kill_one cut/checkpoint $run --set "checkpoint 0.01" --set "final time 2.d-4" --out cut
+on 2 "$treejet" run --resume cut --quiet --walltime 600 2>err || fail "a jet in pieces resumed on other ranks: $(cat err)"
+on 3 $run --set "final time 2.d-4" --out pieces 2>err || fail "a jet in pieces: $(cat err)"
+alike "a jet in pieces that lost a rank" pieces cut
 
 [ $failures = 0 ] || exit 1

@@ -32,7 +32,7 @@ struct Flight {
 Flight flight(const Parameters& p, const Ranks& ranks, double seconds, double interval) {
   Run<3> run(p, {1}, ranks);
   Snapshots<3> snapshots(interval / run.unit.time);
-  snapshots.sample_whole(run.scene.decomposition());
+  snapshots.sample_all(run.scene.decomposition());
   Flight f;
   f.effort = run.to(seconds, {&snapshots});
   f.jets = snapshots.jets;
@@ -75,6 +75,23 @@ TEST_CASE("A run of pieces is the replicated one through insertions, removals an
   // a millionth of the field moves no bead by more than that part of its way
   CHECK(told_by_first(difference(pieces, whole, p), ranks) < 1e-6);
   CHECK(ranks.agree(fmt::format("{} {} {}", pieces.t, pieces.effort.steps, pieces.effort.removed)));
+}
+
+TEST_CASE("Pieces have every local term and meet events at the ends of steps as the whole does") {
+  const Ranks& ranks = started_ranks();
+  const double seconds = 4e-4, interval = 1e-4;
+  const std::vector<Directives> scenes = {
+      {"tolerance 1.d-7", "self field slender", "surface tension model energy"},
+      {"tolerance 1.d-7", "hbfluid yes", "hbfluid consistency 1.", "hbfluid index 0.8"},
+      {"timestep 2.d-7", "integrator heun", "events step"}};
+  for (const Directives& steps : scenes) {
+    CAPTURE(steps);
+    const Flight whole = flight(stream(60, steps, {"multirate no"}), {}, seconds, interval);
+    const Parameters p = stream(60, steps, in_pieces("1.d-6"));
+    const Flight pieces = flight(p, ranks, seconds, interval);
+    CHECK(pieces.effort.removed > 2);
+    CHECK(told_by_first(difference(pieces, whole, p), ranks) < 1e-6);  // as above
+  }
 }
 
 TEST_CASE("A run of pieces that see each other through expansions keeps the accuracy") {
