@@ -128,7 +128,10 @@ kill_one() {  # FILE COMMAND...: of three ranks, once there is this file
   # shellcheck disable=SC2016  # the ranks' shell expands it
   on 3 sh -c 'echo $$ >killed/$$.pid; exec "$@"' rank "$@" 2>err &
   launcher=$!
-  while [ "$(ls killed/*.pid 2>/dev/null | wc -l)" -lt 3 ] || [ ! -s "$file" ]; do sleep 0.01; done
+  while [ "$(ls killed/*.pid 2>/dev/null | wc -l)" -lt 3 ] || [ ! -s "$file" ]; do
+    kill -0 $launcher 2>/dev/null || { fail "no rank to kill: $(cat err)"; return; }
+    sleep 0.01
+  done
   kill -9 "$(cat "$(ls killed/*.pid | tail -1)")"
   wait $launcher
   code=$?
@@ -137,7 +140,7 @@ kill_one() {  # FILE COMMAND...: of three ranks, once there is this file
   while [ "$(running)" -gt 0 ] && [ $tries -lt 50 ]; do sleep 0.1 && tries=$((tries + 1)); done
   is "ranks left running by a killed one" "$(running)" 0
 }
-kill_one out/statdat.dat "$treejet" run "$pvp" --quiet --set "tolerance 1.d-12" --out out
+kill_one lost/statdat.dat "$treejet" run "$pvp" --quiet --set "tolerance 1.d-12" --out lost
 kill_one cut/checkpoint $run --set "checkpoint 0.01" --set "final time 2.d-4" --out cut
 on 2 "$treejet" run --resume cut --quiet --walltime 600 2>err || fail "a jet in pieces resumed on other ranks: $(cat err)"
 on 3 $run --set "final time 2.d-4" --out pieces 2>err || fail "a jet in pieces: $(cat err)"
