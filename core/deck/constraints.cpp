@@ -34,6 +34,7 @@ class Relations {
     coulomb_sum();
     self_field();
     refinement();
+    feed();
     fluid();
     drag();
     randomness();
@@ -113,13 +114,13 @@ class Relations {
 
   void self_field() {
     if (p_.self_field == SelfField::point) return;
-    error(p_.cutoff.has_value(), {"self field", "cutoff"},
+    error(p_.cutoff.has_value(), {p_.model == Model::slender ? "model" : "self field", "cutoff"},
           "expected no cutoff: the field of a tube on itself is completed by that of all its charges");
     note(p_.density_charge == 0, "self field", "no effect: density charge is 0");
-    note(p_.inserting, "self field",
+    note(p_.inserting && p_.feed == Feed::pull, "self field",
          "the paper's rule of insertion lets its rate follow from the push of the nozzle's charge on the "
-         "first "
-         "bead: with slender it depends on the length of the elements more, not less");
+         "first bead: with slender it depends on the length of the elements more, not less; feed flow does "
+         "not let it");
     if (!sound("initial length") || (!is_given("points") && !is_given("resolution"))) return;
     const double l_step =
         is_given("points") ? p_.initial_length / p_.points.value_or(1) : p_.resolution.value_or(0);
@@ -158,6 +159,23 @@ class Relations {
           fmt::format("expected at least {:.6g} cm, twice the length ({:.6g} cm) of an element as the nozzle "
                       "lets it go and twice nozzle cross ({} cm)",
                       least, l_step, p_.nozzle_cross));
+  }
+
+  void feed() {
+    const bool flow = p_.feed == Feed::flow, by_model = p_.model == Model::slender;
+    const char* says_so = by_model ? "model" : "feed";
+    error(flow && !p_.inserting, {says_so, "inserting"},
+          by_model
+              ? "expected inserting yes; a jet without it is self field slender, surface tension model energy"
+              : "expected inserting yes: without it nothing flows");
+    error(flow && !is_given("flow rate"), {says_so}, "expected flow rate to be given, too, as 2 mL/h");
+    error(!flow && is_given("flow rate"), {"flow rate", "feed"},
+          "expected feed flow to be given, too: by feed pull the jet draws what it pulls");
+    error(flow && is_given("nozzle velocity"), {"nozzle velocity", "feed", "flow rate"},
+          p_.nozzle_cross > 0
+              ? fmt::format("expected none: it is {:.6g} cm/s, from flow rate and nozzle cross",
+                            inlet_velocity(p_))
+              : "expected none: it follows from flow rate and nozzle cross");
   }
 
   void perturbation() {

@@ -14,6 +14,7 @@
 #include "core/base/number.hpp"
 #include "core/deck/constraints.hpp"
 #include "core/deck/foreign.hpp"
+#include "core/deck/named_model.hpp"
 #include "core/deck/slips.hpp"
 #include "core/deck/spelling.hpp"
 
@@ -64,6 +65,7 @@ class Reader {
     for (const bool first : {true, false})
       for (Given& g : given_)
         if (!g.faulty && (g.directive == &units) == first) assign_value(g);
+    apply_model(given_, deck_.parameters, findings_);
     report_foreign();
     check_presence();
     check_relations(whole_deck_, given_, deck_.parameters, findings_);
@@ -107,7 +109,8 @@ class Reader {
     }
     for (const Given& g : overriding)
       std::erase_if(given_, [&](const Given& old) {
-        return old.directive == g.directive || old.directive->words == g.directive->or_else;
+        return old.directive == g.directive || old.directive->words == g.directive->or_else ||
+               old.directive->words == g.directive->instead_of;
       });
     given_.insert(given_.end(), overriding.begin(), overriding.end());
   }

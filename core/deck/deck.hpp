@@ -5,10 +5,10 @@
 /// to the end of the line; line ends of any system; `finish` is the last line. Directives are spelled out in
 /// full, come in any order and appear once. An override ("viscosity 30.") is one more line that replaces the
 /// deck's line of the same directive (or of the one it excludes: tolerance for timestep, points for
-/// resolution), or adds one. All errors of a deck are reported together in one InputError, one a line:
-/// `file:line: directive: what was expected, what was found; did you mean ...?`. A file that cannot be read
-/// is a FileError. Source: paper, Sec. "Description of input file" and Appendix A; the directives are the
-/// table of core/deck/directives.cpp.
+/// resolution, flow rate for nozzle velocity), or adds one. All errors of a deck are reported together in one
+/// InputError, one a line: `file:line: directive: what was expected, what was found; did you mean ...?`. A
+/// file that cannot be read is a FileError. Source: paper, Sec. "Description of input file" and Appendix A;
+/// the directives are the table of core/deck/directives.cpp.
 
 #include <string>
 #include <string_view>

@@ -28,7 +28,8 @@ using Member =
                  CoulombSum Parameters::*, TreeOrder Parameters::*, ExpansionKind Parameters::*,
                  ParallelData Parameters::*, std::optional<bool> Parameters::*, DragModel Parameters::*,
                  SelfField Parameters::*, SurfaceModel Parameters::*, StressLawKind Parameters::*,
-                 EvaporationModel Parameters::*, SolventName Parameters::*>;
+                 EvaporationModel Parameters::*, SolventName Parameters::*, Feed Parameters::*,
+                 Model Parameters::*>;
 
 struct Directive {
   std::string_view words;
@@ -38,8 +39,9 @@ struct Directive {
   Check check = {"", nullptr};
   std::string_view meaning;
   bool mandatory = false;
-  std::string_view or_else = {};  ///< exactly one of this directive and that one must be given
-  std::string_view absent = {};   ///< what holds without it, where Parameters cannot say
+  std::string_view or_else = {};     ///< exactly one of this directive and that one must be given
+  std::string_view instead_of = {};  ///< as an override it takes the place of this directive, too
+  std::string_view absent = {};      ///< what holds without it, where Parameters cannot say
   std::string_view example =
       {};  ///< stands in the template; without it the template shows the default as a comment
   std::string_view synonyms = {};  ///< further spellings, separated by ", "

@@ -56,10 +56,13 @@ class Sheet {
   }
 
   void flow() {
-    const double supplied = section_ * p_.nozzle_velocity;
+    const bool pumped = p_.feed == Feed::flow;
+    const double supplied = section_ * inlet_velocity(p_);
     add({"flow_supplied", "flow supplied", in(supplied, "cm3/s", "mL/h"), "mL/h",
-         "by the nozzle's velocity"});
-    add({"current_supplied", "current supplied", nanoamperes(supplied), "nA"});
+         pumped ? "by flow rate" : "by the nozzle's velocity"});
+    add({"current_supplied", "current supplied", nanoamperes(supplied), "nA",
+         pumped ? "with the fluid, whose charge is given" : ""});
+    if (pumped) add({"nozzle_velocity", "velocity at nozzle", inlet_velocity(p_), "cm/s", "from that"});
     if (!draw_ || draw_->flow == 0) return;
     const double drawn = draw_->flow;
     const bool absurd = supplied > 0 && drawn > most_draw * supplied;
@@ -84,7 +87,7 @@ class Sheet {
   }
 
   void numbers() {
-    const double v = p_.nozzle_velocity, alpha = p_.surface_tension;
+    const double v = inlet_velocity(p_), alpha = p_.surface_tension;
     add({"deborah", "Deborah number", relaxation_ * v / a_, "",
          "relaxation time over the time to flow one radius: above 1 the fluid leaves the nozzle elastic"});
     if (alpha > 0)

@@ -24,6 +24,7 @@ constexpr Range ranges[] = {
     {"collector distance", "cm", 0.5, 200, "a few millimetres", "more than two metres", "m", "mm"},
     {"nozzle cross", "cm", 1e-5, 0.15, "less than 0.1 um", "wider than 3 mm across: the radius is wanted", "m", "mm"},
     {"nozzle velocity", "cm/s", 1e-5, 1e3, "less than 0.1 um/s", "more than 10 m/s", "m/s", "mm/s"},
+    {"flow rate", "cm^3/s", 1e-8, 0.1, "less than 36 nL/h", "more than 360 mL/h", "mL/s", "mL/h"},
     {"viscosity", "g/(cm s)", 2e-3, 1e5, "thinner than any solvent", "stiffer than pitch at work", "Pa s", "mPa s"},
     {"elastic modulus", "g/(cm s^2)", 0.1, 1e9, "hardly elastic", "stiffer than rubber", "kPa", "Pa"},
     {"surface tension", "g/s^2", 1, 600, "less than any liquid's", "more than mercury's", "N/m", "uN/m"},

@@ -49,10 +49,12 @@ constexpr Word<StressLawKind> stress_laws[] = {{"maxwell", StressLawKind::maxwel
 constexpr Word<EvaporationModel> evaporation_models[] = {{"vapour", EvaporationModel::vapour},
                                                          {"jetspin", EvaporationModel::jetspin}};
 constexpr Word<SolventName> solvents[] = {{"water", SolventName::water},
-                                      {"ethanol", SolventName::ethanol},
-                                      {"dmf", SolventName::dmf},
-                                      {"chloroform", SolventName::chloroform},
-                                      {"acetone", SolventName::acetone}};
+                                          {"ethanol", SolventName::ethanol},
+                                          {"dmf", SolventName::dmf},
+                                          {"chloroform", SolventName::chloroform},
+                                          {"acetone", SolventName::acetone}};
+constexpr Word<Feed> feeds[] = {{"pull", Feed::pull}, {"flow", Feed::flow}};
+constexpr Word<Model> models[] = {{"paper", Model::paper}, {"slender", Model::slender}};
 constexpr Word<SurfaceModel> surface_models[] = {{"paper", SurfaceModel::paper},
                                                  {"energy", SurfaceModel::energy}};
 
@@ -107,6 +109,12 @@ std::span<const Word<EvaporationModel>> words_of(EvaporationModel) {
 }
 std::span<const Word<SolventName>> words_of(SolventName) {
   return solvents;
+}
+std::span<const Word<Feed>> words_of(Feed) {
+  return feeds;
+}
+std::span<const Word<Model>> words_of(Model) {
+  return models;
 }
 
 template <class T>

@@ -4,9 +4,9 @@
 /// Points are the beads, oldest first, and then the nozzle, so that the polygon through the points is the
 /// jet. A bead's id counts the beads since the start from 1, in the order of their births; the nozzle has id
 /// 0. Quantities of an element - stress, radius a = a_0 sqrt(V l_step / l) - stand at its lower end; the
-/// nozzle has stress 0, mass 0, radius a_0 and the charge it stands for in the Coulomb sum, that of a bead, and
-/// of a column that the scene adds the value that beads are born with. A held bead (core/jet/nozzle.hpp) is no
-/// point yet.
+/// nozzle has stress 0, mass 0, radius a_0 and the charge it stands for in the Coulomb sum
+/// (core/jet/feed.hpp), and of a column that the scene adds the value that beads are born with. A held bead
+/// is no point yet.
 
 #include <cmath>
 #include <cstdint>
@@ -76,7 +76,8 @@ Frame frame(const Jet<D>& jet, const Nozzle<D>& nozzle, const Scales& scales, do
     charge.push_back(jet.charge[i] * scales.charge);
     const double left = material.remaining<D>(jet.y, i);
     mass.push_back(jet.mass[i] * left * scales.mass);
-    radius.push_back(nozzle_radius * std::sqrt(jet.volume[i] * left * nozzle.l_step() / (r - upper).norm()));
+    const double volume = i + 1 < jet.size() ? jet.volume[i] : nozzle.volume_of_youngest(jet);
+    radius.push_back(nozzle_radius * std::sqrt(volume * left * nozzle.l_step() / (r - upper).norm()));
   }
   f.id.push_back(0);
   add(position, end, scales.length);

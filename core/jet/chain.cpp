@@ -59,6 +59,7 @@ void set_elements(Chain<D>& chain, const Jet<D>& jet, const State<D>& y,
   set_between_rows<D>(element, columns<D>(y), columns<D>(y, velocity_column<D>),
                       {first, std::min(last, n - 1)});
   if (last < n) return;
+  chain.volume[n - 1] += chain.held_mass;
   const Vec<D> above = chain.point.row(chain.points() - 1).transpose(), v_above = chain.nozzle_velocity;
   std::array<double, D> d, w;
   for (int k = 0; k < D; ++k) {

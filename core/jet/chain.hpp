@@ -6,7 +6,8 @@
 /// i to its upper neighbour; that of bead n-1 is the nozzle even while a bead is held:
 ///     l_i = |r_i - r_up|,   t_i = (r_i - r_up) / l_i   (away from the nozzle),   strain rate = (v_i -
 ///     v_up).t_i / l_i.
-/// Volume is conserved, pi a_i^2 l_i = pi a_0^2 l_step V_i with V_i = 1 for an initial bead.
+/// Volume is conserved, pi a_i^2 l_i = pi a_0^2 l_step V_i with V_i = 1 for an initial bead; the youngest
+/// element has the held bead's, too.
 ///
 /// Velocities, stress and added columns are those of the state that the chain was set from, which outlives
 /// its use. Scaled. Source: paper, Sec. "Equations of motion".
@@ -30,9 +31,11 @@ struct Chain {
   Points tangent;                 ///< per element, like all below
   Eigen::ArrayXd inverse_length, strain_rate, stress, inverse_mass, volume;
   const State<D>* state = nullptr;  ///< of the beads
+  double held_mass = 0;             ///< of the held bead, and its volume
   Vec<D> nozzle_velocity = Vec<D>::Zero();
 
   int points() const { return static_cast<int>(point.rows()); }
+  bool holds_bead() const { return points() == beads + 2; }
 
   /// Velocity of bead i, and of its upper neighbour.
   Vec<D> velocity(int i) const { return treejet::velocity<D>(*state, i); }
@@ -56,13 +59,14 @@ void set_boundary(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, d
   for (auto* a :
        {&chain.inverse_length, &chain.strain_rate, &chain.stress, &chain.inverse_mass, &chain.volume})
     a->resize(n);
-  const Vec<D> origin = nozzle.position(t);
+  chain.held_mass = 0;
   if (jet.held) {
-    const auto held = nozzle.held(position<D>(y, n - 1), origin);
+    const auto held = nozzle.held(jet, position<D>(y, n - 1), t);
     chain.point.row(n) = held.position.transpose();
     chain.point_charge[n] = held.charge;
+    chain.held_mass = held.mass;
   }
-  chain.point.row(points - 1) = origin.transpose();
+  chain.point.row(points - 1) = nozzle.position(t).transpose();
   chain.point_charge[points - 1] = Nozzle<D>::charge;
 }
 

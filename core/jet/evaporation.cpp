@@ -84,7 +84,7 @@ Evaporation::Evaporation(const Parameters& p)
   coefficient_ = std::numbers::pi * D * 0.495 * std::cbrt(2 * p.nozzle_cross * s.velocity / nu) *
                  std::sqrt(nu / D) * s.length / (s.mass / p.density_mass) * s.time *
                  std::pow(s.l_step / s.length, 1. / 6);  // of the radius, a^2 l = a_0^2 l_step
-  const double least = std::max(least_speed, p.nozzle_velocity) / s.velocity;
+  const double least = std::max(least_speed, inlet_velocity(p)) / s.velocity;
   least_speed2_ = least * least;
 }
 

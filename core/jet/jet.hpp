@@ -9,7 +9,8 @@
 /// Row 0 is the oldest bead, the one nearest to the collector; row n-1 is the youngest. Element i joins bead
 /// i to its upper neighbour, bead i+1 or, for i = n-1, the nozzle, and owns the stress sigma_i. Insertion
 /// appends a row, removal drops row 0. Beads may differ in mass, charge and volume; the volume is that of the
-/// element, pi a_i^2 l_i, so that its radius follows from its length. The nozzle and the bead held below it
+/// element, pi a_i^2 l_i, so that its radius follows from its length; what the youngest element is fed
+/// (core/jet/feed_by_flow.hpp) comes on top. The nozzle and the bead held below it
 /// are boundary conditions, functions of time and of bead n-1 (core/jet/nozzle.hpp), and therefore not rows.
 /// Source: paper, Sec. "Equations of motion" and "Jet insertion".
 
@@ -37,7 +38,8 @@ template <int D>
 struct Jet : SolutionPoint<D> {
   Eigen::ArrayXd mass, charge;
   Eigen::ArrayXd volume;     ///< of the element that a bead owns, which stays as it stretches
-  bool held = false;         ///< a bead waits at distance l_step below the nozzle, its charge fading in
+  bool held = false;         ///< a bead waits below the nozzle (core/jet/feed.hpp)
+  double last_release = 0;   ///< when, if the flow is given
   std::int64_t removed = 0;  ///< beads that have left at the collector: without refinement bead i was the
                              ///< (removed + i)-th inserted
   IdColumn id;               ///< of the beads, from 1 in the order of their births; none without refinement
@@ -47,7 +49,7 @@ struct Jet : SolutionPoint<D> {
 
   void visit(Archive& state) {
     SolutionPoint<D>::visit(state);
-    state(mass, charge, volume, held, removed, id, born);
+    state(mass, charge, volume, held, last_release, removed, id, born);
   }
 };
 
@@ -102,6 +104,7 @@ Jet<D> at(const Jet<D>& jet, double t, const State<D>& y) {
   then.charge = jet.charge;
   then.volume = jet.volume;
   then.held = jet.held;
+  then.last_release = jet.last_release;
   then.removed = jet.removed;
   then.id = jet.id;
   then.born = jet.born;

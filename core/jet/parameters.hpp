@@ -19,6 +19,8 @@ enum class ExpansionKind { local, none };
 enum class SelfField { point, slender };
 enum class SurfaceModel { paper, energy };
 enum class DragModel { jetspin, full };
+enum class Feed { pull, flow };
+enum class Model { paper, slender };
 enum class ParallelData { replicated, distributed };
 enum class StressLawKind { maxwell, kelvin_voigt, oldroyd_b, giesekus, fene_p, power_law, herschel_bulkley };
 enum class EvaporationModel { vapour, jetspin };
@@ -57,6 +59,7 @@ struct NoiseSetting {
 struct Parameters : CoulombSetting, AirSetting, NoiseSetting {
   int system = 3;  ///< 1: straight jet along x; 3: three dimensions; 4: the same in air
   Units units = Units::cgs;
+  Model model = Model::paper;
 
   Scheme integrator = Scheme::automatic;
   std::optional<double> timestep;   ///< s
@@ -71,7 +74,7 @@ struct Parameters : CoulombSetting, AirSetting, NoiseSetting {
 
   double nozzle_cross = 0;        ///< a_0, radius, cm
   double nozzle_stress = 0;       ///< g/(cm s^2)
-  double nozzle_velocity = 0;     ///< cm/s
+  double nozzle_velocity = 0;     ///< cm/s, of feed pull
   double density_mass = 0;        ///< g/cm^3
   double density_charge = 0;      ///< statC/cm^3
   double viscosity = 0;           ///< g/(cm s)
@@ -108,6 +111,8 @@ struct Parameters : CoulombSetting, AirSetting, NoiseSetting {
 
   bool gravity = false;
   bool inserting = false;
+  Feed feed = Feed::pull;
+  std::optional<double> flow_rate;  ///< cm^3/s, of feed flow
   bool removing = false;
   std::optional<double> cutoff;  ///< cm
 

@@ -20,6 +20,10 @@ double potential(const Parameters& p) {
 }
 }  // namespace
 
+double inlet_velocity(const Parameters& p) {
+  return p.feed == Feed::flow ? p.flow_rate.value_or(0) / section(p) : p.nozzle_velocity;
+}
+
 int initial_elements(const Parameters& p) {
   return p.points ? *p.points : static_cast<int>(std::lround(p.initial_length / *p.resolution));
 }

@@ -43,6 +43,9 @@ Groups groups(const Parameters& p);
 /// The air, scaled; it exerts forces of the scaled equations of motion.
 Gas air(const Parameters& p);
 
+/// Velocity of the fluid at the nozzle, cm/s: as given, or that of the flow through its section.
+double inlet_velocity(const Parameters& p);
+
 /// Number of elements of the initial jet.
 int initial_elements(const Parameters& p);
 

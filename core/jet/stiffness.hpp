@@ -16,7 +16,8 @@
 ///
 /// Accuracy asks for a few steps a bead. Beads follow each other at l_step / v, where inertia and the Maxwell
 /// stress balance what drives the jet, the repulsion of neighbours and the field on one element:
-///     rho v^2 + mu e / (1 + tau e) = pi a_0^2 rho_q^2 + rho_q l_step V_0 / h ,      e = v / l_step .
+///     rho v^2 + mu e / (1 + tau e) = pi a_0^2 rho_q^2 + rho_q l_step V_0 / h ,      e = v / l_step ;
+/// fed by flow, v is that of the flow.
 
 #include <string>
 

@@ -78,8 +78,7 @@ class Statistics {
   /// Charge that has left the nozzle, the part of the next bead that has been drawn out counted.
   double charge_fed(const Jet<D>& jet) const {
     if (jet.size() == 0) return double(released_);
-    const double d = (position<D>(jet.y, jet.size() - 1) - nozzle_.position(jet.t)).norm();
-    return double(released_) + d / nozzle_.l_step() - 1;
+    return double(released_) + nozzle_.drawn(jet) - 1;
   }
 
   /// Charge that has reached the collector, the part of the next bead on its way since the last arrival
@@ -108,7 +107,8 @@ class Statistics {
     window_.mass_out += jet.mass[0] * left;
     window_.speed += jet.mass[0] * v.norm();
     window_.strain_rate += jet.mass[0] * (v - upper_velocity).dot(d) / (l * l);
-    window_.radius += jet.mass[0] * std::sqrt(jet.volume[0] * left * nozzle_.l_step() / l);
+    const double volume = alone ? nozzle_.volume_of_youngest(jet) : jet.volume[0];
+    window_.radius += jet.mass[0] * std::sqrt(volume * left * nozzle_.l_step() / l);
     charge_landed_ += jet.charge[0];
     next_arrival_from_ = upper[0];
   }

@@ -264,7 +264,7 @@ void ChainDecomposition::in_portions(const Jet<3>& jet, std::int64_t most,
 void ChainDecomposition::visit(Jet<3>& jet, Archive& state) {
   std::vector<int> borders = layout_.borders;
   Eigen::Index columns = jet.y.cols();
-  state(jet.t, jet.held, jet.removed, columns, borders, recuts_);
+  state(jet.t, jet.held, jet.last_release, jet.removed, columns, borders, recuts_);
   if (!state.reading()) return;
   if (columns != jet.y.cols() || borders.empty() || borders[0] != 0 ||
       !std::is_sorted(borders.begin(), borders.end()))

@@ -44,6 +44,7 @@ void DistributedMotion::extend(const Jet<3>& jet, const State<3>& y) {
   }
   extended_.removed = pieces_.before(jet) + own.first - first_;
   extended_.held = jet.held && pieces_.has_youngest();
+  extended_.last_release = jet.last_release;
   const auto take_in = [&](int rank, int at) {
     if (rank < 0) return;
     const double* from = received[index(rank)].data();
@@ -70,10 +71,22 @@ void DistributedMotion::repel(Rows own, State<3>& slope) {
   }
   if (points > 0) piece.q = chain.point_charge.data() + first_;
   solver_->field(piece, {0, points}, field, worthwhile(threads_, points));
-  for (int k = 0; k < 3 && points > 0; ++k)
+  if (points == 0) return;
+  if (local_.fed_element() && pieces_.has_youngest()) bind_youngest_field(own.size());
+  for (int k = 0; k < 3; ++k)
     slope.col(velocity_column<3> + k).segment(own.first, own.size()) +=
         Q_ * chain.point_charge.segment(first_, own.size()) * chain.inverse_mass.segment(first_, own.size()) *
         field_.col(k).head(own.size());
+}
+
+/// The field that accelerates the youngest bead, the last of the own ones, is in part that at the held bead.
+void DistributedMotion::bind_youngest_field(int own) {
+  const Chain<3>& chain = local_.chain();
+  const auto share = local_.fed_element()->shares(chain);
+  const int youngest = chain.beads - 1;
+  const double specific_charge = chain.point_charge[youngest] * chain.inverse_mass[youngest];
+  field_.row(own - 1) *= share.own;
+  if (chain.holds_bead()) field_.row(own - 1) += share.held / specific_charge * field_.row(own);
 }
 
 }  // namespace treejet

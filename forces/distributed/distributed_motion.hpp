@@ -41,6 +41,7 @@ class DistributedMotion final : public RightHandSide<3> {
  private:
   void extend(const Jet<3>& jet, const State<3>& y);
   void repel(Rows own, State<3>& slope);
+  void bind_youngest_field(int own);
 
   EquationsOfMotion<3>& local_;
   const ChainDecomposition& pieces_;

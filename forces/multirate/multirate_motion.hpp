@@ -77,6 +77,7 @@ class MultirateMotion final : public RightHandSide<D> {
   void continue_middle(const Jet<D>& jet, double t, const State<D>& y, const State<D>& ends,
                        State<D>& slope) const;
   void continued_ends(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope);
+  Vec<D> coulomb_on_held(const Weights& w);
   void set_near_beads(const Weights& w, const State<D>& y, State<D>& slope) const;
   void accelerate(Rows rows, State<D>& slope) const;
   void drift(const SolutionPoint<D>& from, double h, Rows middle, State<D>& all) const;

@@ -44,12 +44,13 @@ Jet<D> initial_jet(const Parameters& p, const std::vector<int>& beads, const Col
   const Scales s = scales(p);
   const auto n = static_cast<Eigen::Index>(beads.size());
   Vec<D> r = Vec<D>::Zero(), v = Vec<D>::Zero();
-  v[0] = p.nozzle_velocity / s.velocity;
+  v[0] = inlet_velocity(p) / s.velocity;
   Jet<D> jet;
   jet.y.resize(n, own_columns<D> + static_cast<Eigen::Index>(added.size()));
   jet.mass.setOnes(n);
   jet.charge.setOnes(n);
   jet.volume.setOnes(n);
+  jet.held = p.inserting && p.feed == Feed::flow;  // an empty bead
   for (Eigen::Index i = 0; i < n; ++i) {
     r[0] = (initial_elements(p) - beads[static_cast<std::size_t>(i)]) * s.l_step / s.length;
     if (beads[static_cast<std::size_t>(i)] == 0 && ends_in_half_a_cell(p)) jet.mass[i] = jet.charge[i] = 0.5;
@@ -154,7 +155,8 @@ class Composer {
   }
 
   void boundaries() {
-    note(p_.inserting, "insertion at the nozzle", "inserting yes", "no inserting yes");
+    const char* by = p_.feed == Feed::flow ? "inserting yes, feed flow" : "inserting yes";
+    note(p_.inserting, "insertion at the nozzle", by, "no inserting yes");
     note(p_.removing, "removal at the collector", "removing yes", "no removing yes");
     note(p_.perturb, "circling nozzle", "perturb yes", "no perturb yes");
     note(p_.refinement, "splitting and merging of elements", "dynamic refinement yes",
@@ -310,8 +312,8 @@ Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks, OwnTe
                                                         std::move(coulomb), threads);
   for (auto& rate : column_rates) scene.motion->add_column(std::move(rate));
   if (composer.multirate())
-    scene.multirate =
-        std::make_unique<MultirateMotion<D>>(*scene.motion, ErrorNorm(p, columns), ShortWaves(p), p.refinement);
+    scene.multirate = std::make_unique<MultirateMotion<D>>(*scene.motion, ErrorNorm(p, columns),
+                                                           ShortWaves(p), p.refinement);
   if constexpr (D == 3)
     if (composer.in_pieces()) {
       const auto jet_of = [&](const std::vector<int>& rows) { return initial_jet<3>(p, rows, columns); };

@@ -24,10 +24,12 @@ class CoulombForce final : public ForceTerm<D> {
 
   std::string_view name() const override { return solver_->name(); }
 
+  /// At a held bead that has a mass, too.
   void prepare(const Chain<D>& c, Rows, Threads threads) override {
     field_.resize(c.points(), Eigen::NoChange);
     const PointCharges<D> points = {columns<D>(c.point), c.point_charge.data(), c.points()};
-    solver_->field(points, {0, c.beads}, columns<D>(field_), threads);
+    const int at = c.held_mass > 0 ? c.beads + 1 : c.beads;
+    solver_->field(points, {0, at}, columns<D>(field_), threads);
     if (solver_->report().coincident > 0) throw NumericalError("two beads of the jet are at one place");
   }
 
@@ -37,6 +39,11 @@ class CoulombForce final : public ForceTerm<D> {
       a.col(k).segment(i, n) +=
           Q_ * c.point_charge.segment(i, n) * c.inverse_mass.segment(i, n) * field_.col(k).segment(i, n);
     }
+  }
+
+  Vec<D> on_held(const Chain<D>& c) const override {
+    if (c.held_mass <= 0) return Vec<D>::Zero();
+    return Q_ * field_.row(c.beads).matrix().transpose();
   }
 
   void visit(Archive& state) { solver_->visit(state); }

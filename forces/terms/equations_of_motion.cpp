@@ -17,7 +17,9 @@ EquationsOfMotion<D>::EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<Stress
       law_columns_(static_cast<int>(stress_law_->columns().size())),
       local_terms_(std::move(local_terms)),
       coulomb_(std::move(coulomb)),
-      threads_(threads) {}
+      threads_(threads) {
+  if (nozzle_.inserting() && nozzle_.feed().flow() > 0) fed_element_.emplace(nozzle_);
+}
 
 template <int D>
 void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) {
@@ -39,6 +41,7 @@ void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const State<D
     Acceleration<D> acceleration = slope.template middleCols<D>(velocity_column<D>);
     if (coulomb_) coulomb_->add(chain_, rows, acceleration);
   });
+  bind_held(chain_, coulomb_ ? coulomb_->on_held(chain_) : Vec<D>::Zero(), slope);
 }
 
 /// The strain rate w.t / l = w.d / l^2 has the derivatives  w / l^2 - 2 rate t / l  by d and  t / l  by w.
@@ -64,6 +67,7 @@ void EquationsOfMotion<D>::differentiate(const Jet<D>& jet, double t, const Stat
     e.stress = stress_law_->derivative(chain_, i);
   }
   for (const auto& term : local_terms_) term->differentiate(chain_, J);
+  if (fed_element_) fed_element_->bind(chain_, J);
 }
 
 template <int D>
@@ -90,6 +94,15 @@ void EquationsOfMotion<D>::set_local(const Chain<D>& chain, Rows rows, State<D>&
   }
   Acceleration<D> acceleration = slope.template middleCols<D>(velocity_column<D>);
   for (auto& term : local_terms_) term->add(chain, rows, acceleration);
+}
+
+template <int D>
+void EquationsOfMotion<D>::bind_held(const Chain<D>& chain, const Vec<D>& coulomb_on_held,
+                                     State<D>& slope) const {
+  if (!fed_element_) return;
+  Vec<D> of_held = coulomb_on_held;
+  for (const auto& term : local_terms_) of_held += term->on_held(chain);
+  fed_element_->bind(chain, of_held, slope);
 }
 
 template class EquationsOfMotion<1>;

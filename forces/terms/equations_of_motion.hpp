@@ -12,12 +12,14 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/jet/nozzle.hpp"
 #include "core/jet/right_hand_side.hpp"
 #include "forces/terms/coulomb_force.hpp"
+#include "forces/terms/fed_element.hpp"
 #include "forces/terms/term.hpp"
 #include "parallel/threads.hpp"
 
@@ -49,6 +51,12 @@ class EquationsOfMotion final : public RightHandSide<D> {
   void prepare(const Chain<D>& chain, Rows rows, Threads threads);
   void set_local(const Chain<D>& chain, Rows rows, State<D>& slope) const;
 
+  /// Binds the youngest bead to the held one of a jet fed by flow, once all forces are in the slopes;
+  /// `coulomb_on_held`: the Coulomb acceleration of the latter. Nothing else has such a bead.
+  void bind_held(const Chain<D>& chain, const Vec<D>& coulomb_on_held, State<D>& slope) const;
+  /// Null without a flow.
+  const FedElement<D>* fed_element() const { return fed_element_ ? &*fed_element_ : nullptr; }
+
   /// Adds the rate of the next column that the scene adds to the state, behind that of the stress law.
   void add_column(std::unique_ptr<ColumnRate<D>> rate) { column_rates_.push_back(std::move(rate)); }
 
@@ -76,6 +84,7 @@ class EquationsOfMotion final : public RightHandSide<D> {
   std::vector<std::unique_ptr<ForceTerm<D>>> local_terms_;
   std::vector<std::unique_ptr<ColumnRate<D>>> column_rates_;
   std::unique_ptr<CoulombForce<D>> coulomb_;
+  std::optional<FedElement<D>> fed_element_;
   Threads threads_;
   Chain<D> chain_;
 };

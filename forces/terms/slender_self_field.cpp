@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/base/simd_clones.hpp"
@@ -48,11 +49,11 @@ template <bool close>
 TREEJET_SIMD_CLONES void set_tensions(Elements c, int count, double* tension) {
 #pragma GCC ivdep
   for (int e = 0; e < count; ++e) {
-    const double inverse = c.inverse_length[e], V = c.volume[e];
-    const double g = plain_g(inverse, c.section.squared_radius(V * inverse));
+    const double inverse = c.inverse_length[e], line = c.volume[e] * inverse;
+    const double g = plain_g(inverse, c.section.squared_radius(line));
     const Logarithm logarithm = close ? limited(g) : Logarithm{g, 1};
     const double charges = c.Q * c.charge[e] * c.inverse_mass[e] * (c.charge[e + 1] * c.inverse_mass[e + 1]);
-    tension[e] = V * V * charges * inverse * inverse * tension_factor(logarithm);
+    tension[e] = charges * line * line * tension_factor(logarithm);
   }
 }
 
@@ -67,25 +68,33 @@ TREEJET_SIMD_CLONES void pull(std::array<const double*, D> t, const double* inve
   }
 }
 
-double length_where_limiter_is_gone(Section section) {
-  // g = 3/2 ln l - ln(a_0^2 l_step V) / 2 + ln 2 - gamma, here of V = 1
-  const double constant = section.squared_radius(1);
-  return std::cbrt(constant * std::exp(2 * (limiter_is_gone + std::numbers::egamma)) / 4);
+/// l^3 / V from which on the limiter does not change a bit.
+double where_limiter_is_gone(Section section) {
+  // g = 3/2 ln l - ln(a_0^2 l_step V) / 2 + ln 2 - gamma
+  return section.squared_radius(1) * std::exp(2 * (limiter_is_gone + std::numbers::egamma)) / 4;
+}
+
+/// What the middle of an element that grows from a volume of 1 to 2, with the charge V - 1 there and 1/2 at
+/// either end, lacks of the tension of whole elements, over Q_e^2 / d^2: between equal elements on a straight
+/// line  psi(1) - psi(V) + (V - 1) (psi'(V / 2) - psi'(V)) , here to 0.5 % of its largest value, 0.20.
+double lack_of_growing(double V) {
+  constexpr double slope = std::numbers::pi * std::numbers::pi / 6;  // at V = 1, exact
+  return slope * (V - 1) * (2 - V) * std::pow(V, -1.9);
 }
 
 }  // namespace
 
-/// Q Q_e^2; the nozzle continues the jet with its charge over mass, 1.
+/// Q_e^2 / V_e^2 = Q c_i c_up; the nozzle continues the jet with its charge over mass, 1.
 template <int D>
 double SlenderSelfField<D>::charges(const Chain<D>& c, int i) const {
   const double up = i + 1 < c.beads ? c.point_charge[i + 1] * c.inverse_mass[i + 1] : 1;
-  return Q_ * c.volume[i] * c.volume[i] * c.point_charge[i] * c.inverse_mass[i] * up;
+  return Q_ * c.point_charge[i] * c.inverse_mass[i] * up;
 }
 
 template <int D>
 void SlenderSelfField<D>::add(const Chain<D>& c, Rows rows, Acceleration<D>& a) const {
   constexpr int at_once = 32;  // the limiter is at work near the nozzle only
-  const double far = length_where_limiter_is_gone(section_);
+  const double far = where_limiter_is_gone(section_);
   std::array<double, at_once + 1> tension;
   for (int first = rows.first; first < rows.last; first += at_once) {
     const int last = std::min(first + at_once, rows.last), element = std::max(first - 1, 0);
@@ -96,8 +105,10 @@ void SlenderSelfField<D>::add(const Chain<D>& c, Rows rows, Acceleration<D>& a) 
                             c.volume.data() + element,
                             Q_,
                             section_};
-    const double largest = c.volume.segment(element, count).maxCoeff();
-    const bool close = c.inverse_length.segment(element, count).maxCoeff() * far * std::cbrt(largest) > 1;
+    const bool close =
+        (c.inverse_length.segment(element, count).cube() * c.volume.segment(element, count)).maxCoeff() *
+            far >
+        1;
     double* const to = tension.data() + (first == 0);
     tension[0] = 0;
     const bool youngest = last == c.beads;
@@ -112,57 +123,70 @@ void SlenderSelfField<D>::add(const Chain<D>& c, Rows rows, Acceleration<D>& a) 
   }
 }
 
-template <int D>
-double SlenderSelfField<D>::tension_of_youngest(const Chain<D>& c) const {
-  const int i = c.beads - 1;
-  const auto tension = [&](double inverse) {
-    const double squared_radius = section_.squared_radius(c.volume[i] * inverse);
-    return inverse * inverse * tension_factor(limited(plain_g(inverse, squared_radius)));
-  };
-  const double d = 1 / c.inverse_length[i], whole = tension(c.inverse_length[i]);
-  if (c.points() == c.beads + 1) return charges(c, i) * whole;
-  const double s = c.point_charge[c.beads];
-  return charges(c, i) * ((1 - s) * whole + s * tension(1 / (d - section_.l_step)));
+namespace {
+
+/// Of an element of volume V with Q_e = V: U_e, T_e and dT_e/dl at length l.
+struct Answer {
+  double energy, tension, stiffness;
+};
+
+Answer answer(Section section, double V, double l) {
+  const double line = V / l;
+  const Logarithm g = limited(plain_g(1 / l, section.squared_radius(line)));
+  return {V * line * g.value, line * line * tension_factor(g), line * line / l * stiffness_factor(g)};
 }
 
-/// T t has the derivative  T' t t' + T / l (1 - t t')  by d; and ds/dd = pi / l_step sin(2 pi (d / l_step -
-/// 3/2)).
+/// Of the youngest element, of length d, by d.
+template <int D>
+Answer of_youngest(const Chain<D>& c, Section section) {
+  const int i = c.beads - 1;
+  const double V = c.volume[i], d = 1 / c.inverse_length[i];
+  if (c.held_mass > 0) {
+    // dU/dd of V elements in a row is that of one of them
+    const Answer one = answer(section, 1, d / V);
+    const double lack = lack_of_growing(V) * V * V / d;
+    return {V * one.energy - lack, one.tension + lack / d, one.stiffness / V - 2 * lack / (d * d)};
+  }
+  const Answer whole = answer(section, V, d);
+  const double s = c.holds_bead() ? c.point_charge[c.beads] : 0;
+  if (s == 0) return whole;
+  using std::numbers::pi;
+  const double l_step = section.l_step,
+               fading = s < 1 ? pi / l_step * std::sin(2 * pi * (d / l_step - 1.5)) : 0;
+  const Answer below = answer(section, V, d - l_step);
+  return {std::numeric_limits<double>::quiet_NaN(), (1 - s) * whole.tension + s * below.tension,
+          (1 - s) * whole.stiffness + s * below.stiffness + fading * (below.tension - whole.tension)};
+}
+
+template <int D>
+Answer of_element(const Chain<D>& c, int i, Section section) {
+  return i + 1 == c.beads ? of_youngest(c, section) : answer(section, c.volume[i], 1 / c.inverse_length[i]);
+}
+
+}  // namespace
+
+template <int D>
+double SlenderSelfField<D>::tension_of_youngest(const Chain<D>& c) const {
+  return charges(c, c.beads - 1) * of_youngest(c, section_).tension;
+}
+
+/// T t has the derivative  T' t t' + T / l (1 - t t')  by d.
 template <int D>
 void SlenderSelfField<D>::differentiate(const Chain<D>& c, LocalJacobian<D>& J) const {
-  struct Answer {
-    double tension, stiffness;
-  };
-  const auto answer = [&](int i, double inverse) {
-    const Logarithm g = limited(plain_g(inverse, section_.squared_radius(c.volume[i] * inverse)));
-    return Answer{inverse * inverse * tension_factor(g), inverse * inverse * inverse * stiffness_factor(g)};
-  };
   for (int i = 0; i < c.beads; ++i) {
-    const double inverse = c.inverse_length[i], d = 1 / inverse;
-    Answer T = answer(i, inverse);
-    if (i + 1 == c.beads && c.points() == c.beads + 2) {
-      using std::numbers::pi;
-      const double l_step = section_.l_step, s = c.point_charge[c.beads];
-      const double fading = s > 0 && s < 1 ? pi / l_step * std::sin(2 * pi * (d / l_step - 1.5)) : 0;
-      const Answer below = answer(i, 1 / (d - l_step));
-      T = {(1 - s) * T.tension + s * below.tension,
-           (1 - s) * T.stiffness + s * below.stiffness + fading * (below.tension - T.tension)};
-    }
+    const Answer T = of_element(c, i, section_);
     using Block = Eigen::Matrix<double, D, D>;
     const Vec<D> t = c.tangent.row(i).matrix().transpose();
     const Block along = t * t.transpose();
     J.element[index(i)].tension_by_d +=
-        charges(c, i) * (T.stiffness * along + T.tension * inverse * (Block::Identity() - along));
+        charges(c, i) * (T.stiffness * along + T.tension * c.inverse_length[i] * (Block::Identity() - along));
   }
 }
 
 template <int D>
 double SlenderSelfField<D>::energy(const Chain<D>& c) const {
   double sum = 0;
-  for (int i = 0; i < c.beads; ++i) {
-    const double inverse = c.inverse_length[i];
-    const double squared_radius = section_.squared_radius(c.volume[i] * inverse);
-    sum += charges(c, i) * inverse * limited(plain_g(inverse, squared_radius)).value;
-  }
+  for (int i = 0; i < c.beads; ++i) sum += charges(c, i) * of_element(c, i, section_).energy;
   return sum;
 }
 

@@ -42,6 +42,10 @@ class ForceTerm {
   virtual void prepare(const Chain<D>&, Rows, Threads) {}
   virtual void add(const Chain<D>& chain, Rows rows, Acceleration<D>& a) const = 0;
 
+  /// The acceleration of a held bead of charge over mass 1 (core/jet/feed_by_flow.hpp), left to itself; the
+  /// tensions of the two halves of its element balance.
+  virtual Vec<D> on_held(const Chain<D>&) const { return Vec<D>::Zero(); }
+
   /// Whether the force on a bead far from the ends, left to itself, changes so smoothly in time that
   /// multirate may extrapolate it over several steps.
   virtual bool extrapolates() const { return true; }

@@ -18,6 +18,7 @@ class ElectricField final : public ForceTerm<D> {
     const auto inverse_mass = chain.inverse_mass.segment(rows.first, rows.size());
     a.col(0).segment(rows.first, rows.size()) += V_ * q * inverse_mass;
   }
+  Vec<D> on_held(const Chain<D>&) const override { return V_ * Vec<D>::UnitX(); }
 
  private:
   double V_;
@@ -31,6 +32,7 @@ class Gravity final : public ForceTerm<D> {
   void add(const Chain<D>&, Rows rows, Acceleration<D>& a) const override {
     a.col(0).segment(rows.first, rows.size()) += F_g_;
   }
+  Vec<D> on_held(const Chain<D>&) const override { return F_g_ * Vec<D>::UnitX(); }
 
  private:
   double F_g_;

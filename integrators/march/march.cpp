@@ -48,7 +48,8 @@ double March<D>::zero(bool insertion, const DenseOutput<D>& segment, double a, d
   // regula falsi, Illinois variant
   for (int i = 0; i < 60 && gb != 0 && b - a > 1e-15 * b; ++i) {
     const double c = (a * gb - b * ga) / (gb - ga);
-    if (!(c > a && c < b)) break;
+    if (!(c > a)) return a;  // the zero but for round-off, with b still far away
+    if (!(c < b)) break;
     const double gc = overdue(insertion, segment, c);
     if (gc < 0) {
       a = c, ga = gc;
@@ -260,6 +261,12 @@ bool March<D>::refine_if_due(std::int64_t released_before) {
   return true;
 }
 
+/// By how much an event may be due in the future to be due now.
+template <int D>
+double March<D>::slack() const {
+  return -simultaneous * parts_.nozzle.l_step();
+}
+
 /// To all who learn from events, when the jet is as watchers are to see it.
 template <int D>
 void March<D>::announce(EventKind kind) {
@@ -270,18 +277,22 @@ void March<D>::announce(EventKind kind) {
 
 template <int D>
 void March<D>::insertion() {
-  const EventKind kind = jet_.held ? EventKind::release : EventKind::place;
   if (under_way_) parts_.nozzle.check_timely(jet_);
-  if (jet_.held) {
-    parts_.nozzle.release(jet_);
-    parts_.motion.after_release(jet_);
-    parts_.decomposition.after_release(jet_);
-    ++effort_.released;
-  } else {
-    parts_.nozzle.place(jet_);
-    ++effort_.placed;
-  }
-  announce(kind);
+  if (!jet_.held) return placement();
+  parts_.nozzle.release(jet_);
+  parts_.motion.after_release(jet_);
+  parts_.decomposition.after_release(jet_);
+  ++effort_.released;
+  announce(EventKind::release);
+  // fed by flow, the next one is held at once
+  if (overdue(true, jet_.y, jet_.t) >= slack()) placement();
+}
+
+template <int D>
+void March<D>::placement() {
+  parts_.nozzle.place(jet_);
+  ++effort_.placed;
+  announce(EventKind::place);
 }
 
 template <int D>
@@ -301,12 +312,11 @@ void March<D>::removal() {
 
 template <int D>
 void March<D>::settle(const Due& due) {
-  const double slack = -simultaneous * parts_.nozzle.l_step();
   due.insertion ? insertion() : removal();
   while (jet_.size() > 0) {
-    if (parts_.nozzle.inserting() && overdue(true, jet_.y, jet_.t) >= slack) {
+    if (parts_.nozzle.inserting() && overdue(true, jet_.y, jet_.t) >= slack()) {
       insertion();
-    } else if (parts_.collector.removing() && overdue(false, jet_.y, jet_.t) >= slack) {
+    } else if (parts_.collector.removing() && overdue(false, jet_.y, jet_.t) >= slack()) {
       removal();
     } else {
       break;

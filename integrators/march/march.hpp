@@ -89,6 +89,8 @@ class March {
   void commit(std::optional<Due> due);
   void announce(EventKind kind);
   void insertion();
+  void placement();
+  double slack() const;
   void removal();
   void settle(const Due& due);
   bool look_at_step_end();

@@ -24,6 +24,7 @@ Simulation<D>::Simulation(const Deck& deck, const System<D>& system, const Setti
     : deck_(deck),
       time_unit_(scales(deck.parameters).time),
       jet_(system.jet),
+      nozzle_(system.nozzle),
       decomposition_(system.decomposition),
       setting_{output_setting(setting.outputs, system.columns, setting.resumed), setting.stop_request,
                nullptr, setting.observables},
@@ -91,11 +92,29 @@ std::string Simulation<D>::summary() const {
     text = fmt::format("the jet has left at t = {:.10g} s: all beads have arrived, none is inserted\n", t());
   text += fmt::format("done in {:.3g} s: {} beads on the jet, {} inserted, {} arrived\n", seconds,
                       decomposition_.beads(jet_) + jet_.held, e.placed, e.removed);
+  if (nozzle_.inserting()) text += flow_summary();
   text += fmt::format(
       "{} evaluations of the forces in {} steps ({} rejected, {} retaken for an event), {:.3g} us each\n",
       e.evaluations, e.steps, e.rejected, e.retaken, 1e6 * seconds / double(e.evaluations));
   for (const auto& line : outputs_.summary()) text += line + "\n";
   return text;
+}
+
+/// What the nozzle has let out and the collector has taken.
+template <int D>
+std::string Simulation<D>::flow_summary() const {
+  const Parameters& p = deck_.parameters;
+  const Scales s = scales(p);
+  const Effort& e = march_.effort();
+  constexpr double hour = 3600, microlitres = 1000, nanoampere = 1e-9;
+  const double volume = s.mass / p.density_mass;  // of a bead, cm^3
+  const double fed = double(e.released) + (jet_.size() > 0 ? nozzle_.drawn(jet_) - 1 : 0);
+  const double beads_a_second = t() > 0 ? fed / t() : 0;
+  return fmt::format("fed {:.4g} uL, in the mean {:.4g} mL/h and {:.4g} nA{}; {:.4g} uL arrived\n",
+                     fed * volume * microlitres, beads_a_second * volume * hour,
+                     beads_a_second * s.charge / statcoulomb_per_coulomb / nanoampere,
+                     p.feed == Feed::flow ? " as asked for" : ", drawn by the jet",
+                     double(e.removed) * volume * microlitres);
 }
 
 template class Simulation<1>;

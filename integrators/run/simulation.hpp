@@ -44,11 +44,13 @@ class Simulation {
  private:
   bool stop_here();
   void save();
+  std::string flow_summary() const;
   void visit(CheckpointParts& state);
 
   const Deck& deck_;
   double time_unit_;  ///< s
   Jet<D>& jet_;
+  const Nozzle<D>& nozzle_;
   Decomposition<D>& decomposition_;
   Setting setting_;
   std::optional<DirectoryLock> lock_;       ///< before anything in the directory is touched

@@ -237,11 +237,10 @@ TEST_CASE("No value is guessed by its letters: on is not no, gc is not vc", "[de
 TEST_CASE(
     "A feature that is switched off, or concerns files alone, is one note whatever the number of its lines",
     "[deck]") {
-  for (const char* line :
-       {"multiple step no", "evaporation no", "restart no", "variable mass no", "dragvel yes",
-        "noise pool 10", "lorentz no", "mirror no", "job time 3600", "print binary 1.d-4 style 3",
-        "printstat binary", "print pdb frame 1.d-3", "print xyz frame 1.d-2", "print rescalexyz",
-        "cutoff points 1000"}) {
+  for (const char* line : {"multiple step no", "evaporation no", "restart no", "variable mass no",
+                           "dragvel yes", "noise pool 10", "lorentz no", "mirror no", "job time 3600",
+                           "print binary 1.d-4 style 3", "printstat binary", "print pdb frame 1.d-3",
+                           "print xyz frame 1.d-2", "print rescalexyz", "cutoff points 1000"}) {
     INFO(line);
     const Deck deck = parse_deck(altered("", line), name);
     const auto about = [&](const std::string& note) { return note.find(": left out") != std::string::npos; };
@@ -553,6 +552,13 @@ TEST_CASE("Overrides replace the deck's line, add one, and are checked like the 
         std::string::npos);
   CHECK(message(sound_deck, {"tolerance 1.d-6"}).find("jet.dat:3: integrator 2: tolerance needs") !=
         std::string::npos);
+  const Parameters pumped = parse_deck(altered("points 1", "points 1\nnozzle velocity 3"), name,
+                                       {"model slender", "flow rate 2 mL/h"})
+                                .parameters;
+  CHECK(pumped.flow_rate == Approx(2.0 / 3600).epsilon(1e-15));
+  CHECK(pumped.feed == Feed::flow);
+  CHECK(pumped.self_field == SelfField::slender);
+  CHECK(pumped.surface_model == SurfaceModel::energy);
   for (const char* nothing : {"", "# viscosity 3", "finish", "gravity yes\nviscosity 3."})
     CHECK(message(sound_deck, {nothing}).find("expected one directive and its value") != std::string::npos);
 }

@@ -61,7 +61,7 @@ TEST_CASE("The held bead waits on the chord to the youngest bead, one element fr
   const Nozzle<3> nozzle(circling());
   const Vec<3> r(1.2, 0.7, -0.4);
   for (double t : {0.0, 0.37, 2.0}) {
-    const Vec<3> n = nozzle.position(t), held = nozzle.held(r, n).position;
+    const Vec<3> n = nozzle.position(t), held = nozzle.held(jet_of<3>({{r}}), r, t).position;
     CHECK((held - n).norm() == Approx(1).epsilon(1e-15));
     CHECK((held - n).cross(r - n).norm() < 1e-15);
     CHECK((held - n).dot(r - n) > 0);
@@ -69,10 +69,8 @@ TEST_CASE("The held bead waits on the chord to the youngest bead, one element fr
 }
 
 TEST_CASE("The charge of the held bead rises from 0 to 1 with no slope at either end") {
-  Parameters p = circling();
-  p.perturb = false;
-  const Nozzle<3> nozzle(p);
-  const auto s = [&](double d) { return nozzle.faded_charge(d); };
+  const FeedByPull<3> feed(1, 0, /*release_waits*/ false);
+  const auto s = [&](double d) { return feed.faded_charge(d); };
   CHECK(s(1.2) == 0);
   CHECK(s(2) == 1);
   CHECK(s(1.75) == Approx(0.5).epsilon(1e-14));
@@ -95,7 +93,8 @@ TEST_CASE("The held bead acts on others with its faded charge and is no row of t
   set_boundary<3>(chain, jet, nozzle, 0.2, jet.y);
   CHECK(chain.points() == 4);
   const double d = (youngest - nozzle.position(0.2)).norm() / nozzle.l_step();
-  CHECK(chain.point_charge[2] == Approx(nozzle.faded_charge(d)).epsilon(1e-14));
+  const FeedByPull<3> feed(nozzle.l_step(), 0, /*release_waits*/ false);
+  CHECK(chain.point_charge[2] == Approx(feed.faded_charge(d)).epsilon(1e-14));
   CHECK(chain.point_charge[3] == 1);
 }
 
@@ -120,7 +119,8 @@ TEST_CASE("A release keeps the strain rate of the element below and makes an uns
 TEST_CASE("A nozzle that circles wider than an element begins by letting a bead go") {
   for (const EventRule events : {EventRule::located, EventRule::step}) {
     // the bead next to the nozzle is on the axis, sqrt(1 + 2^2) elements from it
-    Parameters p = with_steps(example("pvp", {"points 40"}), Scheme::rk4, 1e-9);
+    const std::string deck = fmt::format("{}/examples/pvp/input.dat", TREEJET_SOURCE_DIR);
+    Parameters p = with_steps(read_deck(deck, {"points 40"}).parameters, Scheme::rk4, 1e-9);
     p.events = events;
     Run<3> run(p);
     const Effort effort = run.to(1e-8);

@@ -93,26 +93,29 @@ std::vector<Case> cases() {
   auto fixed_tree = long_jet, two_rate_tree = long_jet;
   fixed_tree.insert(fixed_tree.end(), {"coulomb tree space", "integrator 2", "timestep 5.d-8"});
   two_rate_tree.insert(two_rate_tree.end(), {"tolerance 1.d-3"});
-  return {output_often("pvp", 1e-3, {"points 120", "initial length 2.4", "collector distance 2.45"}),
-          output_often("pvp", 2e-3, {near, "integrator dopri5", "multirate no"}),
-          output_often("pvp", 2e-3, {near, "integrator verner6", "multirate no"}),
-          output_often("pvp", 2e-3, {near, "integrator kencarp5", "elastic modulus 5.d7"}),
-          output_often("pvp", 2e-3, {near, "integrator 1", "timestep 5.d-7", "events step"}),
-          output_often("pvp", 2e-3, {near, "integrator 2", "timestep 1.d-6"}),
-          output_often("pvp", 2e-3,
-                       {near, "integrator 3", "timestep 1.d-6", "hbfluid yes", "hbfluid consistency 1.",
-                        "hbfluid index 0.8"}),
-          output_often("straight-jet", 2e-2, {"collector distance 1."}),
-          output_often("pvp", 2e-3,
-                       {near, "airdrag yes", "airdrag model full", "airdrag airvelocity -500.", "noise yes",
-                        "noise diffusivity 1.d6", "noise variance 1.d4"}),
-          output_often("pvp", 2e-3,
-                       {near, "system 4", "integrator 4", "timestep 1.d-6", "airdrag amplitude 1.d6"}),
-          output_often("pvp", 3e-3,
-                       {"collector distance 3.", "perturb ampl 1.d-2", "self field slender",
-                        "dynamic refinement yes", "dynamic refinement tolerance 1.d-2"}),
-          output_often("pvp", 4e-6, fixed_tree),
-          output_often("pvp", 2e-4, two_rate_tree)};
+  return {
+      output_often("pvp", 1e-3, {"points 120", "initial length 2.4", "collector distance 2.45"}),
+      output_often("pvp", 2e-3, {near, "integrator dopri5", "multirate no"}),
+      output_often("pvp", 2e-3, {near, "integrator verner6", "multirate no"}),
+      output_often("pvp", 2e-3, {near, "integrator kencarp5", "elastic modulus 5.d7"}),
+      output_often("pvp", 2e-3, {near, "integrator 1", "timestep 5.d-7", "events step"}),
+      output_often("pvp", 2e-3, {near, "integrator 2", "timestep 1.d-6"}),
+      output_often("pvp", 2e-3,
+                   {near, "integrator 3", "timestep 1.d-6", "hbfluid yes", "hbfluid consistency 1.",
+                    "hbfluid index 0.8"}),
+      output_often("straight-jet", 2e-2, {"collector distance 1."}),
+      output_often("pvp", 2e-3,
+                   {near, "airdrag yes", "airdrag model full", "airdrag airvelocity -500.", "noise yes",
+                    "noise diffusivity 1.d6", "noise variance 1.d4"}),
+      output_often("pvp", 2e-3,
+                   {near, "system 4", "integrator 4", "timestep 1.d-6", "airdrag amplitude 1.d6"}),
+      output_often("pvp", 3e-3,
+                   {"collector distance 3.", "perturb ampl 1.d-2", "self field slender",
+                    "dynamic refinement yes", "dynamic refinement tolerance 1.d-2"}),
+      output_often("pvp", 2e-3,
+                   {"collector distance 0.1", "model slender", "flow rate 60 mL/h", "initial length 0.03"}),
+      output_often("pvp", 4e-6, fixed_tree),
+      output_often("pvp", 2e-4, two_rate_tree)};
 }
 
 }  // namespace

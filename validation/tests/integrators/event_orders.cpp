@@ -33,6 +33,25 @@ struct NearStraight {
   }
 };
 
+/// The same cases fed by flow, in elements long enough for the slender model.
+struct FedStraight : NearStraight {
+  static Parameters parameters() {
+    Parameters p = example("straight-jet", {"model slender", "flow rate 0.07"});
+    p.external_potential /= 100;
+    p.collector_distance = 2;
+    return p;
+  }
+};
+struct FedPvp : NearPvp {
+  static constexpr double end = 2.4e-3;  // longer, for its elements are
+  static Parameters parameters() {
+    Parameters p = example("pvp", {"model slender", "flow rate 60 mL/h", "initial length 0.04"});
+    p.external_potential /= 16;
+    p.collector_distance = 1;
+    return p;
+  }
+};
+
 template <class Case>
 std::vector<double> errors(Scheme scheme, EventRule events, const std::vector<double>& steps) {
   constexpr int D = Case::dimension;
@@ -78,6 +97,15 @@ TEMPLATE_TEST_CASE(
                                                     {Scheme::heun, halved(unit / 1000, 4)},
                                                     {Scheme::rk4, halved(unit / 200, 6)}};
   for (const auto& [scheme, h] : steps) {
+    const auto e = errors<TestType>(scheme, EventRule::located, h);
+    CAPTURE(name(scheme), e);
+    CHECK(mean_order(e) == Approx(stepper<1>(scheme)->order()).margin(0.3));
+  }
+}
+
+TEMPLATE_TEST_CASE("Fed by flow the schemes keep their orders as well", "", FedStraight, FedPvp) {
+  for (const auto& [scheme, h] : {std::pair{Scheme::heun, halved(TestType::end / 1000, 4)},
+                                  std::pair{Scheme::rk4, halved(TestType::end / 200, 5)}}) {
     const auto e = errors<TestType>(scheme, EventRule::located, h);
     CAPTURE(name(scheme), e);
     CHECK(mean_order(e) == Approx(stepper<1>(scheme)->order()).margin(0.3));

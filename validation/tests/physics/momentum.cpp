@@ -56,7 +56,8 @@ TEST_CASE("The internal forces on beads, held bead and nozzle sum up to zero") {
     const Vec<3> youngest = position<3>(jet.y, 39), at = nozzle.position(jet.t);
     Vec<3> on_boundary = coulomb_on(at, 1, jet, Q);
     if (held) {
-      const auto [p_held, q_held] = nozzle.held(youngest, at);
+      const auto [p_held, q_held, no_mass] = nozzle.held(jet, youngest, jet.t);
+      CHECK(no_mass == 0);
       on_boundary += coulomb_on(p_held, q_held, jet, Q);
     }
     on_boundary +=

@@ -94,6 +94,17 @@ TEST_CASE("Pieces have every local term and meet events at the ends of steps as 
   }
 }
 
+TEST_CASE("Pieces of a jet that is fed by flow move as the whole one does") {
+  const Ranks& ranks = started_ranks();
+  const double seconds = 4e-4, interval = 1e-4;
+  const Directives fed = {"tolerance 1.d-7", "model slender", "flow rate 0.5 mL/h"};
+  const Flight whole = flight(stream(60, fed, {"multirate no"}), {}, seconds, interval);
+  const Parameters p = stream(60, fed, in_pieces("1.d-6"));
+  const Flight pieces = flight(p, ranks, seconds, interval);
+  CHECK(pieces.effort.released > 3);
+  CHECK(told_by_first(difference(pieces, whole, p), ranks) < 1e-6);  // of the field, and so of the way
+}
+
 TEST_CASE("A run of pieces that see each other through expansions keeps the accuracy") {
   const Ranks& ranks = started_ranks();
   const double seconds = 2e-5, interval = 1e-5;
