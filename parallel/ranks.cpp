@@ -46,8 +46,8 @@ std::string Ranks::crowding(Threads threads) const {
   }
   if (crowded == 0 || !first()) return {};
   const std::string who = size_ == 1 ? "" : fmt::format("{} of {} ranks share cores: ", crowded, size_);
-  return fmt::format("{}{} threads on {} cores; start fewer, or bind them to more", who, worst.threads,
-                     worst.cores);
+  return fmt::format("{}{} threads on {} {}; start fewer, or bind them to more cores", who, worst.threads,
+                     worst.cores, worst.cores == 1 ? "core" : "cores");
 }
 
 std::string times_description(const GatherTimes& t, double seconds) {

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <cstdlib>
 #include <exception>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #ifdef __SANITIZE_THREAD__
@@ -91,7 +93,11 @@ CoreSet cores_of_this_process() {
 }
 
 std::optional<int> threads_named() {
-  if (!std::getenv("OMP_NUM_THREADS")) return std::nullopt;
+  const char* named = std::getenv("OMP_NUM_THREADS");
+  if (!named) return std::nullopt;
+  constexpr long most = 4096;  // as of --threads; the OpenMP library keeps the last bits of larger ones
+  if (std::strtol(named, nullptr, 10) > most)
+    throw std::invalid_argument(std::string("OMP_NUM_THREADS: expected 4096 at the most, found ") + named);
   return omp_get_max_threads();
 }
 

@@ -36,7 +36,7 @@ int available_cores();
 using CoreSet = std::bitset<1024>;
 CoreSet cores_of_this_process();
 
-/// The number in OMP_NUM_THREADS, if there is one.
+/// The number in OMP_NUM_THREADS, if there is one. std::invalid_argument beyond what a machine has.
 std::optional<int> threads_named();
 
 }  // namespace treejet

@@ -13,6 +13,7 @@
 #include "core/observe/progress.hpp"
 #include "forces/coulomb/coulomb.hpp"
 #include "validation/support/distributed_run.hpp"
+#include "validation/support/installation.hpp"
 #include "validation/support/machine.hpp"
 #include "validation/support/scaling_run.hpp"
 #include "validation/support/studies.hpp"
@@ -83,7 +84,7 @@ void write_provenance(const std::filesystem::path& directory, const std::string&
 bool publish(const std::string& directory) {
   std::fflush(stdout);
   return std::system(fmt::format("/usr/bin/python3 '{}/validation/pictures/report.py' '{}'",
-                                 TREEJET_SOURCE_DIR, directory)
+                                 treejet::source_tree(), directory)
                          .c_str()) == 0;
 }
 

@@ -61,6 +61,15 @@ std::vector<std::string> lower_case(std::vector<std::string> words) {
   return words;
 }
 
+std::string for_shell(const std::string& text) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
 std::string utf8(std::string_view text) {
   bool valid = true;
   for (std::size_t i = 0; i < text.size() && valid;) {

@@ -18,6 +18,9 @@ std::vector<std::string> words_of(std::string_view line);
 std::string lower_case(std::string_view word);
 std::vector<std::string> lower_case(std::vector<std::string> words);
 
+/// The text as one word of a shell: in quotes where it needs them.
+std::string for_shell(const std::string& text);
+
 /// The text in UTF-8: as it is if that is what it is, else read as Latin-1, which makes every byte a
 /// character. Text of users goes through here before it goes into a file.
 std::string utf8(std::string_view text);

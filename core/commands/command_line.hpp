@@ -17,10 +17,12 @@ struct Arguments {
   int threads = 0;  ///< 0: auto
   bool quiet = false, force = false;
   std::string resume;              ///< directory of the run to continue; empty: a new run
+  std::string from;                ///< where the run that a new one begins with is (core/restart/origin.hpp)
   std::optional<double> walltime;  ///< s
   bool estimate_error = false;     ///< of the rows of statdat.dat, by a second run
 
   std::string file, format, converted;  ///< of convert and info
+  std::string reference;                ///< what `reference` prints instead of its tables
 
   std::string points, field_out;  ///< of the field command
   CoulombSetting coulomb{.coulomb = CoulombSum::automatic};
@@ -32,7 +34,8 @@ struct Arguments {
 /// wrong ones.
 std::optional<Arguments> command_line(int argc, char** argv, const std::string& version_text);
 
-/// The text as one word of a shell: in quotes where it needs them.
-std::string for_shell(const std::string& text);
+/// Seconds as batch systems write them: d-hh[:mm[:ss]], hh:mm:ss, mm:ss, or a number of s or of a unit
+/// behind it. Empty for anything else, and for no time at all.
+std::optional<double> wall_seconds(const std::string& text);
 
 }  // namespace treejet

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/commands/command_line.hpp"
+#include "core/base/lines.hpp"
 #include "core/io/h5md.hpp"
 #include "core/io/run_record.hpp"
 #include "core/restart/checkpoint.hpp"

@@ -270,6 +270,22 @@ Deck parse_deck(std::string_view text, std::string name, std::vector<std::string
   return deck;
 }
 
+Deck changed(const Deck& deck, const std::vector<std::string>& overrides) {
+  const auto directive_of = [](const std::string& line) {
+    const Spelling* spelling = directive_at_start(lower_case(words_of(with_blank_for_equals(line))));
+    return spelling ? spelling->directive : nullptr;
+  };
+  std::vector<std::string> all = deck.overrides;
+  for (const std::string& line : overrides)
+    if (const Directive* d = directive_of(line))
+      std::erase_if(all, [&](const std::string& old) {
+        const Directive* before = directive_of(old);
+        return before == d || (before && before->words == d->or_else);
+      });
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return parse_deck(deck.text, deck.name, std::move(all));
+}
+
 std::string notes(const Deck& deck) {
   std::string text;
   for (const auto& note : deck.notes) text += fmt::format("note: {}\n", note);

@@ -29,6 +29,9 @@ struct Deck {
 Deck read_deck(const std::string& path, const std::vector<std::string>& overrides = {});
 Deck parse_deck(std::string_view text, std::string name, std::vector<std::string> overrides = {});
 
+/// The deck with more overrides, each in the place of an earlier one of the same directive.
+Deck changed(const Deck& deck, const std::vector<std::string>& overrides);
+
 /// The notes, one a line, as the terminal shows them.
 std::string notes(const Deck& deck);
 

@@ -214,7 +214,7 @@ const Directive table[] = {
      .absent = "no file"},
     {.words = "checkpoint", .member = &P::checkpoint, .unit = "s", .check = positive,
      .meaning = "wall-clock time between checkpoints, from which `treejet run --resume` continues",
-     .absent = "one when a signal or --walltime stops the run"},
+     .absent = "one when a signal or --walltime stops the run, and one at the end"},
 };
 // clang-format on
 

@@ -91,6 +91,7 @@ void H5md::describe() {
   note("overrides", fmt::format("{}", fmt::join(p.overrides, "\n")));
   note("observables", fmt::format("{}", fmt::join(content_.keys, " ")));
   note("run_record", run_record_name);
+  if (!p.begins_with.empty()) note("begins_with", p.begins_with);
   if (content_.added.empty()) return;
   std::string lines;
   for (const FrameColumn& c : content_.added) lines += fmt::format("{} {}\n", c.name, c.unit);
@@ -134,9 +135,18 @@ H5md::H5md(const std::filesystem::path& path, Hdf5File::Access access) : file_(p
   if (!file_.has(creator) || file_.text_attribute(creator, "name") != "treejet")
     throw FileError(fmt::format("{}: an HDF5 file, but no trajectory of treejet", path.string()));
   const auto noted = [&](const char* name) { return file_.text(fmt::format("{}/{}", parameters, name)); };
-  content_.made_by = {noted("version"),   noted("commit"),      noted("compiler"),
-                      noted("build"),     noted("vector_path"), noted("libraries"),
-                      noted("deck_name"), noted("deck"),        {}};
+  content_.made_by = {noted("version"),
+                      noted("commit"),
+                      noted("compiler"),
+                      noted("build"),
+                      noted("vector_path"),
+                      noted("libraries"),
+                      noted("deck_name"),
+                      noted("deck"),
+                      {},
+                      {}};
+  const std::string begins_with = fmt::format("{}/begins_with", parameters);
+  if (file_.has(begins_with)) content_.made_by.begins_with = file_.text(begins_with);
   const std::string overrides = noted("overrides");
   for (const auto line : lines_of(overrides)) content_.made_by.overrides.emplace_back(line);
   content_.keys = words_of(noted("observables"));
@@ -236,6 +246,12 @@ void H5md::append(std::span<const Row> rows) {
   put(element(observables, content_.keys[0], "step"), step, {rows.size()});
   put(element(observables, content_.keys[0], "time"), values, {rows.size()});
   rows_ += rows.size();
+}
+
+std::vector<double> H5md::times() const {
+  std::vector<double> times(frames_);
+  file_.read(element(jet, columns_[0].name, "time"), {{0}, {frames_}}, times.data());
+  return times;
 }
 
 std::vector<Frame> H5md::frames(std::uint64_t first, std::uint64_t count) const {

@@ -52,6 +52,8 @@ class H5md {
   const Content& content() const { return content_; }
   const FrameColumns& columns() const { return columns_; }
 
+  /// Of all frames, s.
+  std::vector<double> times() const;
   std::vector<Frame> frames(std::uint64_t first, std::uint64_t count) const;
   std::vector<Row> rows(std::uint64_t first, std::uint64_t count) const;
 

@@ -21,7 +21,8 @@ Provenance provenance(const Deck& deck, std::string_view isa_name) {
                {},
                {},
                deck.text,
-               deck.overrides};
+               deck.overrides,
+               {}};
   p.libraries = fmt::format("HDF5 {}, Eigen {}.{}.{}, fmt {}.{}.{}", hdf5_version(), EIGEN_WORLD_VERSION,
                             EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, FMT_VERSION / 10000,
                             FMT_VERSION / 100 % 100, FMT_VERSION % 100);
@@ -43,8 +44,9 @@ std::string deck_description(std::string_view name, std::string_view deck,
 }
 
 std::string description(const Provenance& p) {
-  return fmt::format("{}\n{}\n{}", program(p), p.libraries,
-                     deck_description(p.deck_name, p.deck, p.overrides));
+  std::string text = fmt::format("{}\n{}\n", program(p), p.libraries);
+  if (!p.begins_with.empty()) text += fmt::format("begins with {}\n", p.begins_with);
+  return text + deck_description(p.deck_name, p.deck, p.overrides);
 }
 
 std::string commented(const Provenance& p, std::string_view mark) {

@@ -18,6 +18,7 @@ struct Provenance {
   std::string deck_name;  ///< of the file, without its directory
   std::string deck;       ///< its text, byte for byte
   std::vector<std::string> overrides;
+  std::string begins_with;  ///< the state of another run that this one began with, and its time; else empty
 };
 
 /// Between the number of a version and the name of physics that is not stock

@@ -32,19 +32,18 @@ std::string host() {
   return name;
 }
 
+Json deck_of(const Provenance& p) {
+  return {{"name", p.deck_name}, {"text", p.deck}, {"overrides", p.overrides}};
+}
+
 Json record_of(const RunRecord::Setting& s) {
   const Provenance& p = s.made_by;
-  return {{"format", format_name},
-          {"program", program(p)},
-          {"version", p.version},
-          {"commit", p.commit},
-          {"compiler", p.compiler},
-          {"build", p.build},
-          {"vector_path", p.isa_name},
-          {"libraries", p.libraries},
-          {"deck", {{"name", p.deck_name}, {"text", p.deck}, {"overrides", p.overrides}}},
-          {"files", s.files},
-          {"segments", Json::array()}};
+  Json record = {{"format", format_name},     {"program", program(p)},    {"version", p.version},
+                 {"commit", p.commit},        {"compiler", p.compiler},   {"build", p.build},
+                 {"vector_path", p.isa_name}, {"libraries", p.libraries}, {"deck", deck_of(p)},
+                 {"files", s.files},          {"segments", Json::array()}};
+  if (!p.begins_with.empty()) record["begins_with"] = p.begins_with;
+  return record;
 }
 
 Json read_record(const fs::path& path) {
@@ -82,6 +81,8 @@ RunRecord::RunRecord(const Setting& setting) : path_(setting.directory / run_rec
   if (there && setting.existing == Existing::keep) throw exists_already(path_);
   Json record =
       there && setting.existing == Existing::resume ? record_to_continue(setting, path_) : record_of(setting);
+  for (const char* of_a_completed_run : {"effort", "means"}) record.erase(of_a_completed_run);
+  record["deck"] = deck_of(setting.made_by);  // the end of a run that is extended changes
   record["segments"].push_back({{"started", now()},
                                 {"host", host()},
                                 {"ranks", setting.circumstances.ranks},
@@ -98,11 +99,11 @@ RunRecord::~RunRecord() {
   }
 }
 
-void RunRecord::complete() {
-  end("completed");
+void RunRecord::complete(const RunResults& results) {
+  end("completed", results);
 }
 
-void RunRecord::end(const char* outcome) {
+void RunRecord::end(const char* outcome, const RunResults& results) {
   ended_ = true;
   Json record = read_record(path_);
   if (!record.contains("segments") || !record["segments"].is_array() || record["segments"].empty() ||
@@ -113,6 +114,11 @@ void RunRecord::end(const char* outcome) {
   segment["ended"] = now();
   segment["wall_seconds"] =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  for (const auto& [name, seconds] : results.times) segment[name] = seconds;
+  for (const auto& [name, count] : results.effort) record["effort"][name] = count;
+  for (const RecordedMean& m : results.means)
+    record["means"][m.key] = {{"unit", m.unit},     {"mean", m.mean},   {"error", m.error},  {"from", m.from},
+                              {"values", m.values}, {"block", m.block}, {"steady", m.steady}};
   write(path_, record);
 }
 
@@ -145,9 +151,11 @@ std::string run_record_text(const fs::path& path) try {
   text += "files";
   for (const Json& f : record.at("files")) text += fmt::format(" {}", f.get<std::string>());
   const Json& deck = record.at("deck");
-  const Provenance p{record.at("version"), record.at("commit"),      record.at("compiler"),
-                     record.at("build"),   record.at("vector_path"), record.at("libraries"),
-                     deck.at("name"),      deck.at("text"),          deck.at("overrides")};
+  const Provenance p{record.at("version"),     record.at("commit"),
+                     record.at("compiler"),    record.at("build"),
+                     record.at("vector_path"), record.at("libraries"),
+                     deck.at("name"),          deck.at("text"),
+                     deck.at("overrides"),     record.value("begins_with", "")};
   return fmt::format("{}\n{}", text, description(p));
 } catch (const Json::exception& e) {
   throw FileError(fmt::format("{}: a run record with something missing: {}", path.string(), e.what()));

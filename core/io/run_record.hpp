@@ -2,11 +2,17 @@
 /// run.json: what made the files beside it, and under which circumstances.
 ///
 ///     {"format": "treejet run record 1", "program", "version", "commit", "compiler", "build", "vector_path",
-///      "libraries", "deck": {"name", "text", "overrides"}, "files": [...],
-///      "segments": [{"started", "host", "ranks", "threads", "ended", "wall_seconds", "outcome"}, ...]}
+///      "libraries", "deck": {"name", "text", "overrides"}, "begins_with", "files": [...],
+///      "segments": [{"started", "host", "ranks", "threads", "ended", "wall_seconds", "outcome", "compute",
+///                    "exchange", "wait", "gatherings"}, ...],
+///      "effort": {"evaluations", "steps", "rejected", "retaken", "inserted", "arrived", "beads"},
+///      "means": {"vc": {"unit", "mean", "error", "from", "values", "block", "steady"}, ...}}
 ///
 /// A segment is one process: the first run or a resumption. Its outcome is "running" until it is over, and
-/// stays so if the program is killed; then "completed", "stopped early" or "failed". Times are UTC. This is
+/// stays so if the program is killed; then "completed", "stopped early" or "failed". Times are UTC; compute,
+/// exchange and wait are seconds of a rank in the mean. Effort, of all segments together, and means
+/// (core/observe/steady_mean.hpp) are those of a completed run.
+/// This is
 /// the only file of a run whose bytes depend on when, where and on how many cores it ran. The only place that
 /// knows the JSON library.
 
@@ -21,6 +27,21 @@ namespace treejet {
 
 struct Circumstances {
   int ranks = 1, threads = 1;
+};
+
+/// A mean over the steady state, in the unit of its key; from: s.
+struct RecordedMean {
+  std::string key, unit;
+  double mean, error, from;
+  int values, block;
+  bool steady;
+};
+
+/// What a completed run tells of itself.
+struct RunResults {
+  std::vector<std::pair<std::string, std::int64_t>> effort;
+  std::vector<std::pair<std::string, double>> times;  ///< s, of this segment
+  std::vector<RecordedMean> means;
 };
 
 class RunRecord {
@@ -40,10 +61,10 @@ class RunRecord {
   /// Unless told of the end before: stopped early or, while an exception is under way, failed.
   ~RunRecord();
 
-  void complete();
+  void complete(const RunResults& results);
 
  private:
-  void end(const char* outcome);
+  void end(const char* outcome, const RunResults& results = {});
 
   std::filesystem::path path_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();

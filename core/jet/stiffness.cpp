@@ -92,8 +92,9 @@ std::string choice_reason(const Parameters& p) {
   const Stiffness s = stiffness(p);
   const bool stiff = properties(chosen_scheme(p)).implicit;
   return fmt::format(
-      "{}: stability would bind an explicit scheme to {:.2g} steps a bead ({:.2g}/s, a bead in {:.2g} s)",
-      stiff ? "stiff" : "not stiff", s.stable_steps(), s.fastest_rate, s.bead_interval);
+      "{}: beads follow each other every {:.2g} s, in which an explicit scheme needs {} to be stable",
+      stiff ? "stiff" : "not stiff", s.bead_interval,
+      s.stable_steps() < 1 ? "no more than one step" : fmt::format("{:.2g} steps", s.stable_steps()));
 }
 
 }  // namespace treejet

@@ -24,8 +24,9 @@ void put(const std::string& text) {
 }
 }  // namespace
 
-StatFile::StatFile(OutputFile file, const std::vector<std::string>& labels, const Provenance& made_by)
-    : file_(std::move(file)) {
+StatFile::StatFile(OutputFile file, const std::vector<std::string>& labels, const Provenance& made_by,
+                   std::vector<std::string> changes)
+    : file_(std::move(file)), changes_(std::move(changes)) {
   if (!file_.is_new()) return;
   std::string header = "#";
   for (std::string word : labels) {
@@ -34,6 +35,12 @@ StatFile::StatFile(OutputFile file, const std::vector<std::string>& labels, cons
   }
   file_.write(
       fmt::format("{}\n{}## circumstances: {}\n", header, commented(made_by, "## "), run_record_name));
+}
+
+void StatFile::visit(Archive& state) {
+  file_.visit(state);
+  if (!state.reading()) return;
+  for (const std::string& line : changes_) file_.write(fmt::format("## from here on --set \"{}\"\n", line));
 }
 
 void StatFile::row(const std::vector<double>& values) {

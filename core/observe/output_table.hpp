@@ -29,14 +29,17 @@ std::vector<std::string> labels(const std::vector<std::string>& keys, const OwnO
 
 class StatFile final : public RowSink {
  public:
-  StatFile(OutputFile file, const std::vector<std::string>& labels, const Provenance& made_by);
+  /// The changes of a deck since the rows that are there already are told where its rows begin.
+  StatFile(OutputFile file, const std::vector<std::string>& labels, const Provenance& made_by,
+           std::vector<std::string> changes = {});
   void row(const std::vector<double>& values) override;
   void remark(const std::string& text) override;
   void finish() override { file_.sync(); }
-  void visit(Archive& state) override { file_.visit(state); }
+  void visit(Archive& state) override;
 
  private:
   OutputFile file_;
+  std::vector<std::string> changes_;
 };
 
 class TerminalTable final : public RowSink {

@@ -11,6 +11,7 @@
 #include "core/observe/output_xyz.hpp"
 #include "core/observe/progress.hpp"
 #include "core/observe/recorder.hpp"
+#include "core/observe/steady_mean.hpp"
 #include "core/restart/checkpoint.hpp"
 
 namespace treejet {
@@ -73,16 +74,12 @@ class Contribution final : public Sampling<D> {
   std::int64_t most_;
 };
 
-/// Closes the record when all else is finished.
-template <int D>
-class RecordKeeper final : public Observer<D> {
- public:
-  explicit RecordKeeper(const RunRecord::Setting& setting) : record_(setting) {}
-  void finish(const Jet<D>&) override { record_.complete(); }
-
- private:
-  RunRecord record_;
-};
+/// The keys of both tables that have a mean, time first.
+std::vector<std::string> keys_with_means(const Parameters& p) {
+  std::vector<std::string> keys = p.printstat_list;
+  keys.insert(keys.end(), p.print_list.begin(), p.print_list.end());
+  return treejet::keys_with_means(keys);
+}
 
 }  // namespace
 
@@ -109,13 +106,15 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
               makes_table(p, setting) ? std::make_unique<TerminalTable>(labels(p.print_list, own)) : nullptr,
               own);
     if (!p.printstat_list.empty()) {
-      rows->add(
-          p.printstat_list,
-          std::make_unique<StatFile>(file("statdat.dat"), labels(p.printstat_list, own), setting.made_by),
-          own);
+      rows->add(p.printstat_list,
+                std::make_unique<StatFile>(file("statdat.dat"), labels(p.printstat_list, own),
+                                           setting.made_by, setting.changes),
+                own);
     }
     if (const auto keys = hdf5_observables(p); !keys.empty())
       rows->add(after_time(keys), std::make_unique<Hdf5Rows>(hdf5), own);
+    means_ = std::make_shared<SteadyMeans>(labels(keys_with_means(p), own));
+    rows->add(keys_with_means(p), means_, own);
     watch("rows", std::move(rows), decomposition);
   }
   if (p.print_xyz) {
@@ -187,7 +186,7 @@ template <int D>
 void Outputs<D>::keep_record(const OutputSetting& setting) {
   RunRecord::Setting record{setting.directory, setting.made_by, {}, setting.circumstances, setting.existing};
   for (const auto& f : files_) record.files.push_back(f.filename().string());
-  watchers_.push_back({run_record_name, std::make_unique<RecordKeeper<D>>(record)});
+  record_ = std::make_unique<RunRecord>(record);
   files_.push_back(setting.directory / run_record_name);
 }
 
@@ -214,7 +213,16 @@ std::vector<std::string> Outputs<D>::summary() const {
                     trajectory_->most_beads(), maxnum_));
   }
   if (force_error_) lines.push_back(summary_of(*force_error_));
+  if (means_)
+    for (auto& line : description(means_->means())) lines.push_back(std::move(line));
   return lines;
+}
+
+template <int D>
+void Outputs<D>::complete(RunResults results) {
+  if (!record_) return;
+  if (means_) results.means = means_->means();
+  record_->complete(results);
 }
 
 template <int D>

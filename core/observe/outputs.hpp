@@ -26,6 +26,7 @@ struct FieldErrorReport;
 template <int D>
 class XyzTrajectory;
 class H5mdTrajectory;
+class SteadyMeans;
 class CheckpointParts;
 
 struct OutputSetting {
@@ -38,6 +39,7 @@ struct OutputSetting {
   const FieldErrorReport* force_error = nullptr;  ///< null: exact forces
   Columns added = {};                             ///< of the scene, for frames
   const CheckpointParts* resumed = nullptr;       ///< what to go on from, null for a new run
+  std::vector<std::string> changes = {};          ///< directives of a deck that has changed since then
 };
 
 template <int D>
@@ -54,6 +56,11 @@ class Outputs {
   std::vector<std::string> summary() const;
 
   void visit(CheckpointParts& state);
+
+  /// The run has come to its end: its means are added, and the record is closed.
+  void complete(RunResults results);
+
+  bool makes_files() const { return !files_.empty(); }
 
  private:
   void contribute(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
@@ -72,6 +79,8 @@ class Outputs {
 
   std::vector<Named> watchers_;
   std::vector<std::filesystem::path> files_;
+  std::unique_ptr<RunRecord> record_;
+  std::shared_ptr<SteadyMeans> means_;
   const XyzTrajectory<D>* trajectory_ = nullptr;
   bool contributes_ = false;  ///< to the outputs of another process
   int maxnum_;

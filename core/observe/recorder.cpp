@@ -17,7 +17,7 @@ Recorder<D>::Recorder(const Setting& setting)
 }
 
 template <int D>
-void Recorder<D>::add(const std::vector<std::string>& keys, std::unique_ptr<RowSink> sink,
+void Recorder<D>::add(const std::vector<std::string>& keys, std::shared_ptr<RowSink> sink,
                       const OwnObservables<D>& own) {
   List list{{}, std::move(sink)};
   for (const auto& key : keys) {

@@ -40,7 +40,7 @@ class Recorder final : public Sampling<D> {
 
   /// Sends the keys' values, and behind them a caller's own, to the sink at every row. Without a sink the
   /// keys are only followed.
-  void add(const std::vector<std::string>& keys, std::unique_ptr<RowSink> sink,
+  void add(const std::vector<std::string>& keys, std::shared_ptr<RowSink> sink,
            const OwnObservables<D>& own = {});
 
   void start(const Jet<D>& jet) override;
@@ -59,7 +59,7 @@ class Recorder final : public Sampling<D> {
  private:
   struct List {
     std::vector<Observable<D>> observables;
-    std::unique_ptr<RowSink> sink;
+    std::shared_ptr<RowSink> sink;
   };
   using Clock = std::chrono::steady_clock;
 

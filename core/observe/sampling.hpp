@@ -1,6 +1,6 @@
 #pragma once
-/// Calls a function at the asked times k * interval, k = 0, 1, 2, ..., exactly there, by dense output.
-/// All times scaled.
+/// Calls a function where a run begins and at the asked times k * interval after that, exactly there, by
+/// dense output. All times scaled.
 
 #include <cmath>
 
@@ -21,7 +21,7 @@ class Sampling : public Observer<D> {
   void sample_early_end() { samples_early_end_ = true; }
 
   void start(const Jet<D>& jet) override {
-    count_ = 0;
+    count_ = static_cast<std::int64_t>((jet.t + slack()) / interval_);
     take(jet, jet.t, jet.y);
   }
 

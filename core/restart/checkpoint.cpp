@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "core/base/error.hpp"
+#include "core/base/lines.hpp"
 #include "core/io/atomic_file.hpp"
 
 namespace treejet {
@@ -16,7 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char *newest = "checkpoint", *older = "checkpoint.old", *unfinished = "checkpoint.new";
+constexpr const char *newest = checkpoint_names[0], *older = checkpoint_names[1], *last = checkpoint_names[2];
+constexpr const char* unfinished = "checkpoint.new";
 
 /// In front of the bytes. The number changes with the layout of what follows.
 constexpr std::string_view title = "treejet checkpoint 4\n";
@@ -173,16 +175,14 @@ std::optional<Checkpoint> sound_checkpoint(const fs::path& file, std::vector<std
 
 Checkpoint newest_checkpoint(const fs::path& directory, std::vector<std::string>& warnings,
                              const Readers& readers) {
-  for (const char* name : {newest, older}) {
+  for (const char* name : checkpoint_names) {
     std::error_code error;
     // where one of the readers sees it, all look
     if (readers.all(!fs::exists(directory / name, error))) continue;
     if (auto checkpoint = sound_checkpoint(directory / name, warnings, readers))
       return *std::move(checkpoint);
   }
-  if (warnings.empty())
-    throw FileError(fmt::format("{}: no checkpoint here; a run that has come to its end leaves none",
-                                directory.string()));
+  if (warnings.empty()) throw FileError(fmt::format("{}: no checkpoint here", directory.string()));
   std::string text = fmt::format("{}: no sound checkpoint here", directory.string());
   for (const auto& warning : warnings) text += fmt::format("\n  {}", warning);
   throw FileError(text);
@@ -195,12 +195,24 @@ Checkpoints::Checkpoints(fs::path directory, OutputFile::Existing existing)
   if (existing == OutputFile::Existing::keep && there) {
     throw FileError(fmt::format(
         "{}: a run was stopped here; continue it with: treejet run --resume {}, or replace it with --force",
-        directory_.string(), directory_.string()));
+        directory_.string(), for_shell(directory_.string())));
+  }
+  if (existing == OutputFile::Existing::keep && fs::exists(directory_ / last, error)) {
+    throw FileError(
+        fmt::format("{}: a run has come to its end here; extend it with: treejet run --resume {} --set "
+                    "\"final time ...\", "
+                    "or replace it with --force",
+                    directory_.string(), for_shell(directory_.string())));
   }
 }
 
 void Checkpoints::write(Checkpoint& checkpoint,
                         const std::function<void(const WriteRecord&)>& give_records) const {
+  write(checkpoint, give_records, newest);
+}
+
+void Checkpoints::write(Checkpoint& checkpoint, const std::function<void(const WriteRecord&)>& give_records,
+                        const char* name) const {
   Archive archive;
   archive(checkpoint);
   const std::string payload = std::move(archive).bytes();
@@ -217,13 +229,24 @@ void Checkpoints::write(Checkpoint& checkpoint,
     file.write(bytes);
   });
   file.sync();
-  if (fs::exists(directory_ / newest, error)) put_in_place(directory_ / newest, directory_ / older);
-  put_in_place(directory_ / unfinished, directory_ / newest);
+  if (name == newest && fs::exists(directory_ / newest, error))
+    put_in_place(directory_ / newest, directory_ / older);
+  put_in_place(directory_ / unfinished, directory_ / name);
   force_to_disk(directory_);
 }
 
+void Checkpoints::conclude(Checkpoint* state) const {
+  std::error_code error;
+  if (state)
+    write(
+        *state, [](const WriteRecord&) {}, last);
+  else
+    fs::remove(directory_ / last, error);
+  for (const char* name : {unfinished, newest, older}) fs::remove(directory_ / name, error);
+}
+
 void Checkpoints::remove() const {
-  for (const char* name : {unfinished, newest, older}) {
+  for (const char* name : {unfinished, newest, older, last}) {
     std::error_code error;
     fs::remove(directory_ / name, error);
   }

@@ -2,13 +2,15 @@
 /// Checkpoints: the state of a run in a file, from which it goes on as if nothing had happened.
 ///
 /// The two newest stand beside the results, as `checkpoint` and `checkpoint.old`. A new one is written under
-/// another name, forced to disk and only then renamed, so that at any moment at least one is whole; a run
-/// that has come to its end leaves none. The file: a line of text with the format's number, the length and
-/// the checksum (CRC-32) of what follows, and that, as core/base/archive.hpp writes it: which program and
-/// deck made it, and the state in named parts. Of a chain that ranks hold in pieces the beads come behind
-/// that, in records with lengths and checksums of their own (core/jet/decomposition.hpp), so that nobody ever
-/// holds more of them than a record and what is his.
+/// another name, forced to disk and only then renamed, so that at any moment at least one is whole. A run
+/// that has come to its end leaves `checkpoint.end` alone: the state before the first step that the final
+/// time shortened, from which a run to a later one takes the same steps. The file: a line of text with the
+/// format's number, the length and the checksum (CRC-32) of what follows, and that, as core/base/archive.hpp
+/// writes it: which program and deck made it, and the state in named parts. Of a chain that ranks hold in
+/// pieces the beads come behind that, in records with lengths and checksums of their own
+/// (core/jet/decomposition.hpp), so that nobody ever holds more of them than a record and what is his.
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -40,7 +42,7 @@ class CheckpointParts {
     }
   }
 
-  /// Into an object whose state is what a part begins with; the rest belongs to another process.
+  /// Into an object whose state is what a part begins with; the rest is for others.
   template <class T>
   void beginning_of_part(const std::string& name, T& object) const {
     Archive archive(bytes(name));
@@ -67,6 +69,14 @@ class CheckpointParts {
   bool reading_ = false;
 };
 
+/// The part of the columns that the scene adds, which is there if there are any.
+inline constexpr const char* columns_part = "columns";
+struct SavedColumn {
+  std::string name;
+  double scale = 1;  ///< what 1 is in CGS
+  void visit(Archive& archive) { archive(name, scale); }
+};
+
 struct Checkpoint {
   std::string program;  ///< what wrote it
   std::string deck_name, deck_text;
@@ -79,6 +89,10 @@ struct Checkpoint {
   void visit(Archive& archive) { archive(program, deck_name, deck_text, overrides, t, records, state); }
 };
 
+/// From the newest to the oldest; the last one is that of a completed run.
+inline constexpr std::array<const char*, 3> checkpoint_names{"checkpoint", "checkpoint.old",
+                                                             "checkpoint.end"};
+
 /// Several processes that read the same checkpoint: each verifies its share of the records, and it is sound
 /// if all say so.
 struct Readers {
@@ -86,8 +100,8 @@ struct Readers {
   std::function<bool(bool sound)> all = [](bool sound) { return sound; };
 };
 
-/// The newest sound checkpoint of a directory, the same for all readers. `warnings` gets a line for each that
-/// is newer but not sound; FileError if none is.
+/// The newest sound checkpoint of a directory, of a completed run its last state, the same for all readers.
+/// `warnings` gets a line for each that is newer but not sound; FileError if none is.
 Checkpoint newest_checkpoint(const std::filesystem::path& directory, std::vector<std::string>& warnings,
                              const Readers& readers = {});
 
@@ -107,10 +121,14 @@ class Checkpoints {
   void write(
       Checkpoint& checkpoint,
       const std::function<void(const WriteRecord&)>& give_records = [](const WriteRecord&) {}) const;
-  /// The run has come to its end, or takes the place of another.
+  /// The run has come to its end, and leaves this state.
+  void conclude(Checkpoint* last) const;
+  /// The run takes the place of another.
   void remove() const;
 
  private:
+  void write(Checkpoint& checkpoint, const std::function<void(const WriteRecord&)>& give_records,
+             const char* name) const;
   std::filesystem::path directory_;
 };
 

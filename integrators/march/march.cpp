@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "integrators/march/diagnosis.hpp"
@@ -171,10 +173,19 @@ void March<D>::start() {
   under_way_ = true;
 }
 
+/// Whether the next step, as long as it may get for an event, or its extrapolation reaches the end.
+template <int D>
+bool March<D>::nears(double end) const {
+  constexpr double most = 1.2;
+  const double free = parts_.control.proposal(jet_.t, std::numeric_limits<double>::infinity());
+  return jet_.t + most * std::min(free, parts_.motion.longest_step()) >= end;
+}
+
 template <int D>
 bool March<D>::to(double end) {
   if (!under_way_) start();
   while (jet_.t < end && jet_.size() > 0) {
+    if (parts_.end_in_sight && nears(end)) std::exchange(parts_.end_in_sight, {})();
     if (parts_.stop_here && parts_.stop_here()) return false;
     if (jet_.t >= piece_end_) {
       begin_piece();
@@ -195,10 +206,10 @@ bool March<D>::to(double end) {
 template <int D>
 void March<D>::visit(Archive& state) {
   const auto columns = jet_.y.cols();
+  parts_.decomposition.visit(jet_, state);  // first: another run may begin with it alone
   state(piece_begin_);
   if (state.reading())
     piece_end_ = parts_.motion.smooth_from(piece_begin_);  // before it reads what it remembers
-  parts_.decomposition.visit(jet_, state);
   state(parts_.motion, parts_.control, forecast_, effort_, under_way_);
   if (!state.reading()) return;
   const auto n = jet_.size();
@@ -207,6 +218,12 @@ void March<D>::visit(Archive& state) {
                      (jet_.slope.rows() == n || !under_way_) && (jet_.slope.cols() == columns || !under_way_);
   if (!alike || jet_.removed < 0)
     throw FileError("the checkpoint's jet has beads without a mass, a charge, a volume or a velocity");
+}
+
+template <int D>
+void March<D>::take_over(Archive& state) {
+  visit(state);
+  for (auto* w : parts_.observers) w->start(jet_);
 }
 
 /// The event that ends this step, if any. An adaptive step with an event well inside is made anew to end

@@ -49,6 +49,8 @@ class March {
     std::function<bool()> stop_here = {};  ///< asked between any two steps: whether to stop there
     Decomposition<D>& decomposition = undivided<D>;
     const Spacing<D>* spacing = nullptr;  ///< null: elements are neither split nor merged
+    /// Told once, before the first step that another end might have made longer.
+    std::function<void()> end_in_sight = {};
   };
 
   explicit March(const Parts& parts)
@@ -67,6 +69,9 @@ class March {
   /// All between two steps: the march, what it moves and by what rules. Not the watchers.
   void visit(Archive& state);
 
+  /// Goes on from another march, whose state is read, with watchers that see this as the start.
+  void take_over(Archive& state);
+
  private:
   struct Due {
     double t;
@@ -76,6 +81,7 @@ class March {
   bool aims() const { return parts_.control.steps_to_events() && parts_.events == EventRule::located; }
   void start();
   void begin_piece();
+  bool nears(double end) const;
   void evaluate(SolutionPoint<D>& point, const State<D>* known = nullptr);
   void step(double h);
   double error() const;

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <iostream>
 #include <new>
+#include <stdexcept>
 #include <system_error>
 
 #include "core/base/error.hpp"
@@ -35,7 +36,7 @@ int dispatch(const Arguments& a, const Ranks& ranks, const OwnPhysics& own) {
   } else if (a.command == "template") {
     fmt::print("{}", deck_template());
   } else if (a.command == "reference") {
-    fmt::print("{}\n{}", directive_reference(), key_reference());
+    fmt::print("{}", a.reference.empty() ? directive_reference() + "\n" + key_reference() : a.reference);
   } else if (a.command == "convert") {
     fmt::print("{}\n", convert({a.file, a.format, a.converted, existing(a)}));
   } else if (a.command == "info") {
@@ -96,6 +97,8 @@ int front_door(int argc, char** argv, const OwnPhysics& own) {
   } catch (const Error& e) {
     return fail(e.exit_code(), e.what());
   } catch (const LaunchError& e) {
+    return fail(2, e.what());
+  } catch (const std::invalid_argument& e) {  // of the environment
     return fail(2, e.what());
   } catch (const std::bad_alloc&) {
     return fail(memory_refused, "the system refuses the memory that this takes");

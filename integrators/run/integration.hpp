@@ -37,9 +37,9 @@ System<D> system(Scene<D>& scene) {
 template <int D>
 class Integration {
  public:
-  /// `stop_here` is asked between any two steps.
+  /// `stop_here` is asked between any two steps, `end_in_sight` told once (integrators/march/march.hpp).
   Integration(const Parameters& p, const System<D>& system, std::vector<Observer<D>*> observers = {},
-              std::function<bool()> stop_here = {})
+              std::function<bool()> stop_here = {}, std::function<void()> end_in_sight = {})
       : stepper_(stepper<D>(p)),
         control_(step_control(p)),
         spacing_(p.refinement ? std::make_optional<Spacing<D>>(p) : std::nullopt),
@@ -54,7 +54,8 @@ class Integration {
                .observers = std::move(observers),
                .stop_here = std::move(stop_here),
                .decomposition = system.decomposition,
-               .spacing = spacing_ ? &*spacing_ : nullptr}) {
+               .spacing = spacing_ ? &*spacing_ : nullptr,
+               .end_in_sight = std::move(end_in_sight)}) {
     if (spacing_ && system.jet.id.size() == 0) number_beads(system.jet);
   }
 

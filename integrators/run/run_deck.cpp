@@ -7,12 +7,14 @@
 #include <filesystem>
 
 #include "core/base/error.hpp"
+#include "core/base/lines.hpp"
 #include "core/base/output_file.hpp"
 #include "core/deck/deck.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/directory_lock.hpp"
 #include "core/io/provenance.hpp"
 #include "core/io/run_record.hpp"
+#include "core/restart/origin.hpp"
 #include "core/restart/resume.hpp"
 #include "forces/coulomb/coulomb.hpp"
 #include "forces/scene/scene_description.hpp"
@@ -22,12 +24,6 @@
 namespace treejet {
 
 namespace {
-
-Provenance made(const Deck& deck, const OwnPhysics& own) {
-  Provenance p = provenance(deck, isa_name());
-  if (!own.name.empty()) p.version += own_physics_mark + own.name;
-  return p;
-}
 
 /// "2 ranks, 4 threads each".
 std::string workers_description(const Ranks& ranks, Threads threads) {
@@ -80,26 +76,50 @@ void estimate_error(const Parameters& p, const Arguments& a, const std::filesyst
   if (!a.quiet) fmt::print("{}{}\n", errors_text(all, against), (directory / error_table_name).string());
 }
 
+/// What a run begins with: the deck's initial jet, the same run's checkpoint, or the state of another.
+struct Beginning {
+  Checkpoint* resumed = nullptr;
+  std::vector<std::string> changes = {};  ///< of the deck of a run that is extended
+  Origin* origin = nullptr;
+};
+
+Provenance made(const Deck& deck, const OwnPhysics& own, const Beginning& from = {}) {
+  Provenance p = provenance(deck, isa_name());
+  if (!own.name.empty()) p.version += own_physics_mark + own.name;
+  const std::string part = "begins with";
+  if (from.origin) p.begins_with = description(*from.origin, deck.parameters);
+  if (from.resumed && from.resumed->state.has(part)) from.resumed->state.part(part, p.begins_with);
+  return p;
+}
+
 template <int D>
 int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysics& own,
-        Checkpoint* checkpoint) {
-  const Provenance made_by = made(deck, own);
-  ranks.require_same(program(made_by), deck_description(deck.name, deck.text, deck.overrides));
+        const Beginning& from) {
+  const Provenance made_by = made(deck, own, from);
+  ranks.require_same(program(made_by),
+                     deck_description(deck.name, deck.text, deck.overrides) + made_by.begins_with);
   const Parameters& p = deck.parameters;
   const Threads each = threads(a, ranks);
-  const std::string directory = checkpoint ? a.resume : a.out;
+  const std::string directory = from.resumed ? a.resume : a.out;
   StopVote stop(p, a, ranks);
   const std::filesystem::path error_table = std::filesystem::path(directory) / error_table_name;
   if (a.estimate_error) expect_estimate_possible(p, a, error_table);
   Scene<D> scene = compose<D>(p, each, ranks, own_terms<D>(own, p));
-  const OutputSetting outputs{directory,          existing(a), a.quiet,
-                              !ranks.first(),     made_by,     {ranks.size(), each.count},
-                              scene.force_error()};
+  if (from.origin) scene.jet = jet_of<D>(*from.origin, p, scene.columns);
+  OutputSetting outputs{directory,          existing(a), a.quiet,
+                        !ranks.first(),     made_by,     {ranks.size(), each.count},
+                        scene.force_error()};
+  outputs.changes = from.changes;
+  CheckpointParts* const steps = from.origin ? steps_of(*from.origin, p) : nullptr;
   Simulation<D> simulation(deck, system(scene),
-                           {outputs, [&stop] { return stop(); }, checkpoint, own_observables<D>(own)});
+                           {outputs, [&stop] { return stop(); }, from.resumed, own_observables<D>(own), steps,
+                            [&ranks] { return ranks.times(); }});
   if (!a.quiet) {
     fmt::print("{}\n{}\n{}{}", program(made_by), deck.name, notes(deck),
                composition(scene.composed, scene.left_out));
+    if (from.origin)
+      fmt::print("begins with {}; {}\n", made_by.begins_with,
+                 steps ? "its steps go on" : "its steps begin anew");
     fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p),
                workers_description(ranks, each));
   }
@@ -119,21 +139,18 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysi
   if (!a.quiet) fmt::print("\n{}{}", simulation.summary(), times_description(ranks.times(), seconds));
   if (a.estimate_error) {
     const Parameters second = finer(p);
-    estimate_error<D>(p, a, directory, compose<D>(second, each, ranks, own_terms<D>(own, second)),
-                      own_observables<D>(own), ranks, [&stop] { return stop() == StopRequest::stop; });
+    Scene<D> again = compose<D>(second, each, ranks, own_terms<D>(own, second));
+    if (from.origin) again.jet = jet_of<D>(*from.origin, p, again.columns);
+    estimate_error<D>(p, a, directory, std::move(again), own_observables<D>(own), ranks,
+                      [&stop] { return stop() == StopRequest::stop; });
   }
   return 0;
 }
 
 int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysics& own,
-        Checkpoint* checkpoint = nullptr) {
+        const Beginning& from = {}) {
   const bool straight = deck.parameters.system == 1;
-  return straight ? run<1>(deck, a, ranks, own, checkpoint) : run<3>(deck, a, ranks, own, checkpoint);
-}
-
-/// All ranks, which go on from the same checkpoint.
-Readers readers(const Ranks& ranks) {
-  return {ranks.rank(), ranks.size(), [ranks](bool sound) { return ranks.greatest(sound ? 0 : 1) == 0; }};
+  return straight ? run<1>(deck, a, ranks, own, from) : run<3>(deck, a, ranks, own, from);
 }
 
 /// Whether the run in a directory has come to its end. FileError if another process is at it.
@@ -142,6 +159,38 @@ bool is_completed(const std::string& directory, const Ranks& ranks) {
   if (ranks.first() && std::filesystem::is_directory(directory, error)) DirectoryLock{directory};
   return has_completed(directory) &&
          !std::filesystem::exists(std::filesystem::path(directory) / "checkpoint", error);
+}
+
+int already_at_its_end(const Arguments& a, const Ranks& ranks) {
+  if (ranks.first()) fmt::print("{}: the run is already at its end\n", a.resume);
+  return 0;
+}
+
+int run_from(const Arguments& a, const Ranks& ranks, const OwnPhysics& own) {
+  Origin source = origin(a.from);
+  std::error_code error;
+  if (std::filesystem::equivalent(source.file.parent_path() / ".", a.out, error))
+    throw InputError(fmt::format("--from {}: the run there is left as it is; name another --out", a.from));
+  return run(read_deck(a.deck, a.overrides), a, ranks, own, {.origin = &source});
+}
+
+/// All ranks, which go on from the same checkpoint.
+Readers readers(const Ranks& ranks) {
+  return {ranks.rank(), ranks.size(), [ranks](bool sound) { return ranks.greatest(sound ? 0 : 1) == 0; }};
+}
+
+int resume(const Arguments& a, const Ranks& ranks, const OwnPhysics& own) {
+  const bool completed = is_completed(a.resume, ranks);
+  if (completed && a.overrides.empty()) return already_at_its_end(a, ranks);
+  const bool with_deck = !a.deck.empty();  // whose overrides say the same as the checkpoint
+  Resumption found = resumption(a.resume, version_text(own),
+                                with_deck ? std::vector<std::string>() : a.overrides, readers(ranks));
+  if (ranks.first())
+    for (const auto& w : found.warnings) fmt::print(stderr, "treejet: warning: {}\n", w);
+  if (with_deck) expect_same(read_deck(a.deck, a.overrides), found.deck);
+  if (completed && !found.extended) return already_at_its_end(a, ranks);
+  const auto changes = found.extended ? a.overrides : std::vector<std::string>();
+  return run(found.deck, a, ranks, own, {.resumed = &found.checkpoint, .changes = changes});
 }
 
 }  // namespace
@@ -162,16 +211,9 @@ OutputFile::Existing existing(const Arguments& a) {
 }
 
 int run_deck(const Arguments& a, const Ranks& ranks, const OwnPhysics& own) {
-  if (a.resume.empty()) return run(read_deck(a.deck, a.overrides), a, ranks, own);
-  if (is_completed(a.resume, ranks)) {
-    if (ranks.first()) fmt::print("{}: the run is already at its end\n", a.resume);
-    return 0;
-  }
-  Resumption stopped = resumption(a.resume, version_text(own), readers(ranks));
-  if (ranks.first())
-    for (const auto& w : stopped.warnings) fmt::print(stderr, "treejet: warning: {}\n", w);
-  if (!a.deck.empty()) expect_same(read_deck(a.deck, a.overrides), stopped.deck);
-  return run(stopped.deck, a, ranks, own, &stopped.checkpoint);
+  if (!a.resume.empty()) return resume(a, ranks, own);
+  if (!a.from.empty()) return run_from(a, ranks, own);
+  return run(read_deck(a.deck, a.overrides), a, ranks, own);
 }
 
 }  // namespace treejet

@@ -17,6 +17,13 @@ OutputSetting output_setting(OutputSetting outputs, const Columns& added, const 
   return outputs;
 }
 
+/// Reads a march that this one takes over.
+template <int D>
+struct MarchOfAnother {
+  March<D>& march;
+  void visit(Archive& state) { march.take_over(state); }
+};
+
 }  // namespace
 
 template <int D>
@@ -26,8 +33,12 @@ Simulation<D>::Simulation(const Deck& deck, const System<D>& system, const Setti
       jet_(system.jet),
       nozzle_(system.nozzle),
       decomposition_(system.decomposition),
-      setting_{output_setting(setting.outputs, system.columns, setting.resumed), setting.stop_request,
-               nullptr, setting.observables},
+      setting_{output_setting(setting.outputs, system.columns, setting.resumed),
+               setting.stop_request,
+               nullptr,
+               setting.observables,
+               nullptr,
+               setting.gather_times},
       lock_(setting.outputs.elsewhere
                 ? std::optional<DirectoryLock>()
                 : std::optional<DirectoryLock>(std::in_place, setting.outputs.directory)),
@@ -36,19 +47,55 @@ Simulation<D>::Simulation(const Deck& deck, const System<D>& system, const Setti
                        : std::optional<Checkpoints>({setting_.outputs.directory, setting_.outputs.existing})),
       outputs_(deck.parameters, system.nozzle, system.collector, setting_.outputs, system.decomposition,
                setting.observables),
-      integration_(deck.parameters, system, outputs_.observers(), [this] { return stop_here(); }),
+      integration_(
+          deck.parameters, system, outputs_.observers(), [this] { return stop_here(); },
+          [this] {
+            if (leaves_state()) before_end_ = state();
+          }),
       march_(integration_.march) {
   if (checkpoints_ && setting_.outputs.existing == OutputFile::Existing::replace) checkpoints_->remove();
-  if (!setting.resumed) return;
-  visit(setting.resumed->state);
-  decomposition_.read(jet_, records_of(*setting.resumed));
+  if (setting.resumed) {
+    visit(setting.resumed->state);
+    decomposition_.read(jet_, records_of(*setting.resumed));
+  }
+  if (setting.steps) {
+    MarchOfAnother<D> taken{march_};
+    setting.steps->part("march", taken);
+  }
+  if (!setting.outputs.changes.empty()) save();  // what a resumption is to go on with from now on
 }
 
 template <int D>
 bool Simulation<D>::finish() {
   const bool arrived = march_.to(deck_.parameters.final_time / time_unit_);
-  if (arrived && checkpoints_) checkpoints_->remove();
+  if (arrived) outputs_.complete(results());
+  if (arrived && checkpoints_) checkpoints_->conclude(before_end_ ? &*before_end_ : nullptr);
   return arrived;
+}
+
+template <int D>
+RunResults Simulation<D>::results() const {
+  const Effort& e = march_.effort();
+  const GatherTimes t = setting_.gather_times();
+  const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+  return {{{"evaluations", e.evaluations},
+           {"steps", e.steps},
+           {"rejected", e.rejected},
+           {"retaken", e.retaken},
+           {"inserted", e.placed},
+           {"arrived", e.removed},
+           {"beads", decomposition_.beads(jet_) + jet_.held}},
+          {{"compute", seconds - t.exchange - t.wait},
+           {"exchange", t.exchange},
+           {"wait", t.wait},
+           {"gatherings", double(t.count)}},
+          {}};
+}
+
+/// A jet in subdomains is nowhere whole.
+template <int D>
+bool Simulation<D>::leaves_state() const {
+  return checkpoints_ && outputs_.makes_files() && deck_.parameters.parallel == ParallelData::replicated;
 }
 
 template <int D>
@@ -62,10 +109,23 @@ bool Simulation<D>::stop_here() {
 template <int D>
 void Simulation<D>::save() {
   if (!checkpoints_) return decomposition_.write(jet_, {});
-  Checkpoint checkpoint{program(setting_.outputs.made_by), deck_.name, deck_.text, deck_.overrides, t(),
-                        decomposition_.records(),          {},         {}};
-  visit(checkpoint.state);
+  // a state that the final time has had an influence on would not do for a later one
+  Checkpoint checkpoint = before_end_ ? *before_end_ : state();
   checkpoints_->write(checkpoint, [this](const WriteRecord& write) { decomposition_.write(jet_, write); });
+}
+
+template <int D>
+Checkpoint Simulation<D>::state() {
+  const Provenance& by = setting_.outputs.made_by;
+  Checkpoint checkpoint{program(by), deck_.name, deck_.text, deck_.overrides, t(), decomposition_.records(),
+                        {},          {}};
+  visit(checkpoint.state);
+  std::vector<SavedColumn> columns;
+  for (const Column& c : setting_.outputs.added) columns.push_back({c.name, c.scale});
+  if (!columns.empty()) checkpoint.state.part(columns_part, columns);
+  std::string begins_with = by.begins_with;
+  if (!begins_with.empty()) checkpoint.state.part("begins with", begins_with);
+  return checkpoint;
 }
 
 template <int D>

@@ -15,6 +15,7 @@
 #include "core/restart/checkpoint.hpp"
 #include "core/restart/stop_request.hpp"
 #include "integrators/run/integration.hpp"
+#include "parallel/ranks.hpp"
 
 namespace treejet {
 
@@ -28,6 +29,9 @@ class Simulation {
     };                              ///< asked between any two steps
     Checkpoint* resumed = nullptr;  ///< of the same deck, to continue; null for a new run
     OwnObservables<D> observables = {};
+    /// Of another run, whose steps this one goes on with; null where they begin with the system's jet.
+    CheckpointParts* steps = nullptr;
+    std::function<GatherTimes()> gather_times = [] { return GatherTimes(); };  ///< of all ranks together
   };
 
   /// Opens the files; FileError if one exists already or cannot be made, or cannot be continued.
@@ -45,6 +49,9 @@ class Simulation {
   bool stop_here();
   void save();
   std::string flow_summary() const;
+  bool leaves_state() const;
+  RunResults results() const;
+  Checkpoint state();
   void visit(CheckpointParts& state);
 
   const Deck& deck_;
@@ -55,11 +62,13 @@ class Simulation {
   Setting setting_;
   std::optional<DirectoryLock> lock_;       ///< before anything in the directory is touched
   std::optional<Checkpoints> checkpoints_;  ///< none if another process makes the outputs
+  std::optional<Checkpoint> before_end_;    ///< the last state that the final time had no influence on
   Outputs<D> outputs_;
   Integration<D> integration_;
   March<D>& march_;
   using Clock = std::chrono::steady_clock;
   Clock::time_point started_ = Clock::now();  ///< as if never stopped
+  const Clock::time_point begun_ = Clock::now();
 };
 
 }  // namespace treejet

@@ -16,7 +16,7 @@ from .errors import FileError, InputError, TreejetError
 from .frames import Frame
 from .means import SteadyMean, steady_mean, steady_means
 from .observables import Observables
-from .program import call, find, run
+from .program import call, extend, find, run
 from .read import Run, read
 from .spectrum import Spectrum, spectrum
 from .sweep import Point, sweep
@@ -24,6 +24,6 @@ from .units import convert
 
 __all__ = [
     "Deck", "Difference", "FileError", "Frame", "InputError", "Observables", "Point", "Run", "Spectrum", "SteadyMean",
-    "TreejetError", "call", "compare", "convert", "difference", "find", "read", "run", "spectrum", "steady_mean",
+    "TreejetError", "call", "compare", "convert", "difference", "extend", "find", "read", "run", "spectrum", "steady_mean",
     "steady_means", "sweep",
 ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 from pathlib import Path
 
@@ -35,6 +36,8 @@ def arguments() -> argparse.ArgumentParser:
     sweep.add_argument("--list", metavar="CSV", type=Path, help="points from a table with a header of directives")
     sweep.add_argument("--jobs", metavar="J", type=positive, default=1, help="runs side by side (default: 1)")
     sweep.add_argument("--out", metavar="DIR", type=Path, default=Path("sweep"), help="directory (default: sweep)")
+    sweep.add_argument("--only", metavar="N", type=positive, help="run point N alone, as a task of a job array; the table is "
+                       "made by the same command without --only")
     return parser
 
 
@@ -97,7 +100,11 @@ def sweep(options: argparse.Namespace) -> int:
     if len({name for name, _ in pairs}) < len(pairs):
         raise InputError("--vary: a directive is named twice")
     vary = from_csv(options.list) if options.list else dict(pairs)
-    points = sweep(options.deck, vary, options.out, options.jobs, told=lambda line: print(line, flush=True))
+    for ahead_of_the_end in (signal.SIGTERM, signal.SIGUSR1):
+        signal.signal(ahead_of_the_end, signal.default_int_handler)
+    points = sweep(options.deck, vary, options.out, options.jobs, lambda line: print(line, flush=True), options.only)
+    if options.only is not None:
+        return points[0].exit_code
     for path in (options.out / "sweep.csv", sweep_plot.draw(points, options.out / "sweep.png")):
         if path:
             print(f"wrote {path}")

@@ -8,7 +8,7 @@ Error.    Block averaging: the standard error from means of blocks of B values g
           quarter, with B^3 > 2 m (e_B / e_1)^4, which weighs bias against noise (Lee et al., Phys. Rev. E 83 (2011)
           066706).
 Steady    if the two halves of what is left agree: their means differ by at most 3 of the difference's standard errors,
-          2 e, and what one value more or less moves them; and B leaves 4 blocks at least.
+          2 e, and what one value more or less moves them, and a millionth of them; and B leaves 4 blocks at least.
 A window without a value (nan) is passed over.
 
 >>> rng = np.random.default_rng(1)
@@ -29,6 +29,7 @@ import numpy as np
 from .observables import Observables
 
 BATCH = 5
+SAME = 1e-6  #: relative: a jet that tends to a fixed value without noise is steady once nobody would quote the difference
 NO_MEAN = ("t", "ts", "cpu", "cpue", "cpur", "f", "l")
 
 
@@ -77,7 +78,7 @@ def steady_mean(series: np.ndarray) -> SteadyMean:
     half = len(rest) // 2
     apart = abs(rest[:half].mean() - rest[half:].mean()) if half else math.inf
     one_value = np.ptp(rest) / half if half else 0.0
-    steady = bool(math.isfinite(error) and apart <= 6 * error + one_value)
+    steady = bool(math.isfinite(error) and apart <= 6 * error + one_value + SAME * abs(rest.mean()))
     return SteadyMean(float(rest.mean()), error, int(there[first]), len(rest), block, steady)
 
 

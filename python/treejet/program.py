@@ -63,7 +63,7 @@ def run_arguments(deck: str, out: str, overrides: "list[str]", threads: Optional
 
 
 def run(deck: DeckLike, out: Union[str, "os.PathLike[str]"], threads: Optional[int] = None, force: bool = False,
-        **overrides: object) -> Run:
+        begin_with: Union[str, "os.PathLike[str]", None] = None, **overrides: object) -> Run:
     """Runs a deck and returns what came out.
 
     `deck` is a file, or a Deck (of another run, or made from text). Overrides are directives with _ for blanks, as
@@ -71,14 +71,23 @@ def run(deck: DeckLike, out: Union[str, "os.PathLike[str]"], threads: Optional[i
 
         treejet.run("input.dat", out="r12", external_potential="12 kV", final_time=0.1)
 
+    `begin_with="other"`, or `"other@60ms"`, takes the jet of another run instead of the deck's initial one.
+
     TreejetError with the program's own message and exit code if it fails; the files are complete up to there.
     """
     lines = [override(name, value) for name, value in overrides.items()]
+    source = ["--from", os.fspath(begin_with)] if begin_with is not None else []
     if not isinstance(deck, Deck):
-        call(*run_arguments(os.fspath(deck), os.fspath(out), lines, threads, force))
+        call(*run_arguments(os.fspath(deck), os.fspath(out), lines, threads, force), *source)
         return read(out)
     with tempfile.TemporaryDirectory() as directory:
         written = Path(directory) / (Path(deck.name).name or "deck.dat")
         written.write_text(deck.text)
-        call(*run_arguments(str(written), os.fspath(out), deck.overrides + lines, threads, force))
+        call(*run_arguments(str(written), os.fspath(out), deck.overrides + lines, threads, force), *source)
     return read(out)
+
+
+def extend(run: Union[str, "os.PathLike[str]"], final_time: object) -> Run:
+    """Takes the run in a directory to a later end, with the files of one that had it at once: `extend("r12", "0.2 s")`."""
+    call("run", "--resume", os.fspath(run), "--quiet", "--set", override("final_time", final_time))
+    return read(run)

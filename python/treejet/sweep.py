@@ -19,6 +19,7 @@ import json
 import math
 import os
 import re
+import signal
 import subprocess
 import threading
 from collections.abc import Mapping, Sequence
@@ -102,17 +103,38 @@ def grid(vary: Mapping[str, Sequence[object]]) -> "list[dict[str, str]]":
 
 
 class Stop:
-    """Set once the user has asked for an end: no further point is begun."""
+    """Once the user, or a batch system, has asked for an end no further point is begun, and those that run are told."""
 
     def __init__(self) -> None:
         self.asked = threading.Event()
+        self._running: "set[subprocess.Popen[str]]" = set()
+        self._lock = threading.Lock()
+
+    def ask(self) -> None:
+        with self._lock:
+            self.asked.set()
+            for run in self._running:
+                run.send_signal(signal.SIGTERM)  # it writes its checkpoint
+
+    def run(self, words: "list[str]") -> "Optional[tuple[int, str]]":
+        """Exit code and messages of a command, or nothing if it is too late to begin."""
+        with self._lock:
+            if self.asked.is_set():
+                return None
+            run = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            self._running.add(run)
+        said = run.communicate()[1]
+        with self._lock:
+            self._running.discard(run)
+        return run.returncode, said
 
 
 def sweep(deck: Union[str, "os.PathLike[str]"],
           vary: Union[Mapping[str, Sequence[object]], Sequence[Mapping[str, object]]],
           out: Union[str, "os.PathLike[str]"] = "sweep", jobs: int = 1,
-          told: Optional[Callable[[str], None]] = None) -> "list[Point]":
-    """Runs the grid of `vary`, or the points of a list of dicts, `jobs` at a time; returns all points.
+          told: Optional[Callable[[str], None]] = None, only: Optional[int] = None) -> "list[Point]":
+    """Runs the grid of `vary`, or the points of a list of dicts, `jobs` at a time; returns all points, or the one with the
+    number `only`, counted from 1: then other processes run the others, and no table is made.
 
     InputError if `out` holds another sweep. KeyboardInterrupt leaves checkpoints behind, from which the same call goes on.
     """
@@ -123,7 +145,10 @@ def sweep(deck: Union[str, "os.PathLike[str]"],
     text = _deck_text(source)
     digits = max(3, len(str(len(settings))))
     points = [Point(k, values, place / f"{k:0{digits}d}") for k, values in enumerate(settings, 1)]
+    if only is not None and not 1 <= only <= len(points):
+        raise InputError(f"a sweep of {len(points)} points has no point {only}")
     _claim(place, text, settings)
+    points = points if only is None else [points[only - 1]]
     say = told or (lambda line: None)
     threads = max(1, (len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1) // jobs)
     stop = Stop()
@@ -135,9 +160,10 @@ def sweep(deck: Union[str, "os.PathLike[str]"],
                 values = ", ".join(f"{name} {value}" for name, value in point.values.items())
                 say(f"{point.directory.name}  {values}: {point.message or 'done'}")
         except KeyboardInterrupt:
-            stop.asked.set()  # the runs got the signal as well and write their checkpoints
+            stop.ask()
             raise
-    write_table(place / "sweep.csv", points)
+    if only is None:
+        write_table(place / "sweep.csv", points)
     return points
 
 
@@ -153,14 +179,19 @@ def _claim(place: Path, deck: str, settings: "list[dict[str, str]]") -> None:
     record = place / "sweep.json"
     mine = {"format": FORMAT, "deck": deck, "points": settings}
     try:
-        if record.exists():
-            if json.loads(record.read_text()) != mine:
-                raise InputError(f"{place}: holds a sweep of another deck or of other points; name another --out")
-            return
         place.mkdir(parents=True, exist_ok=True)
-        if any(place.iterdir()):
-            raise FileError(f"{place}: is not empty and holds no sweep; name another --out")
-        record.write_text(json.dumps(mine, indent=1) + "\n")
+        if not record.exists():
+            if any(not there.name.startswith(record.name) for there in place.iterdir()) and not record.exists():
+                raise FileError(f"{place}: is not empty and holds no sweep; name another --out")
+            fresh = place / f"{record.name}.{os.uname().nodename}-{os.getpid()}"
+            fresh.write_text(json.dumps(mine, indent=1) + "\n")
+            try:
+                os.link(fresh, record)  # the first of several processes, and whole
+            except FileExistsError:
+                pass
+            fresh.unlink()
+        if json.loads(record.read_text()) != mine:
+            raise InputError(f"{place}: holds a sweep of another deck or of other points; name another --out")
     except (OSError, ValueError) as problem:
         raise FileError(f"{record}: {problem}") from None
 
@@ -168,18 +199,18 @@ def _claim(place: Path, deck: str, settings: "list[dict[str, str]]") -> None:
 def _finish(point: Point, deck: Path, threads: int, stop: Stop) -> None:
     """Runs a point, goes on with it, or leaves it alone; its failure is noted, not raised."""
     if not _is_finished(point):
-        if stop.asked.is_set():
-            point.exit_code, point.message = STOPPED, "not begun"
-            return
         if (point.directory / "checkpoint").exists() or (point.directory / "checkpoint.old").exists():
             words = ["run", "--resume", str(point.directory), "--quiet", "--threads", str(threads)]
         else:
             # what an attempt without a checkpoint left is begun anew
             words = program.run_arguments(str(deck), str(point.directory), point.overrides(), threads, force=True)
-        done = subprocess.run([program.find(), *words], stdin=subprocess.DEVNULL, capture_output=True, text=True)
-        if done.returncode:
-            point.exit_code = done.returncode
-            point.message = str(program.failure(done.stderr, done.returncode))
+        done = stop.run([program.find(), *words])
+        if done is None:
+            point.exit_code, point.message = STOPPED, "not begun"
+            return
+        if done[0]:
+            point.exit_code = done[0]
+            point.message = str(program.failure(done[1], done[0]))
     try:
         table = point.run.observables
         point.units = table.units

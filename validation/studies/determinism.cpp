@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/io/atomic_file.hpp"
+#include "validation/support/installation.hpp"
 #include "validation/support/rank_layout.hpp"
 #include "validation/support/studies.hpp"
 
@@ -39,9 +40,9 @@ std::vector<RankLayout> teams(bool quick) {
 
 void run(const Scene& scene, const RankLayout& layout, const fs::path& results) {
   std::string arguments = fmt::format("run '{}/validation/decks/stream.dat' --quiet --force --out '{}'",
-                                      TREEJET_SOURCE_DIR, results.string());
+                                      source_tree(), results.string());
   for (const auto& d : scene.directives) arguments += fmt::format(" --set '{}'", d);
-  const std::string line = launch_line(layout, /*pinned*/ false, TREEJET_PROGRAM, arguments) + " 2>/dev/null";
+  const std::string line = launch_line(layout, /*pinned*/ false, program_path(), arguments) + " 2>/dev/null";
   if (std::system(line.c_str()) != 0) throw Error(1, "failed: " + line);
 }
 

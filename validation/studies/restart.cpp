@@ -11,6 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/commands/file_info.hpp"
 #include "core/io/atomic_file.hpp"
+#include "validation/support/installation.hpp"
 #include "validation/support/studies.hpp"
 
 namespace treejet {
@@ -50,14 +51,14 @@ constexpr std::size_t files_of_lines = 2;
 
 /// treejet run, quietly, in a process of its own.
 pid_t started(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words = {TREEJET_PROGRAM, "run", "--quiet"};
+  std::vector<std::string> words = {program_path(), "run", "--quiet"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (auto& w : words) argv.push_back(w.data());
   argv.push_back(nullptr);
   const pid_t child = fork();
   if (child == 0) {
-    execv(TREEJET_PROGRAM, argv.data());
+    execv(argv[0], argv.data());
     _exit(127);
   }
   if (child < 0) throw FileError("no process can be started");
@@ -90,7 +91,7 @@ struct Tally {
 class Trial {
  public:
   Trial(const Scene& scene, const fs::path& directory) : directory_(directory / "killed") {
-    deck_ = {fmt::format("{}/examples/{}/input.dat", TREEJET_SOURCE_DIR, scene.example)};
+    deck_ = {fmt::format("{}/examples/{}/input.dat", source_tree(), scene.example)};
     for (const auto& line : scene.overrides) deck_.insert(deck_.end(), {"--set", line});
     deck_.insert(deck_.end(), {"--set", "checkpoint 0.02"});
     const auto begin = Clock::now();

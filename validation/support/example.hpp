@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "core/deck/deck.hpp"
+#include "validation/support/installation.hpp"
 
 namespace treejet {
 
 /// The parameters of examples/NAME/input.dat with some of its directives replaced.
 inline Parameters example(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  return read_deck(fmt::format("{}/examples/{}/input.dat", TREEJET_SOURCE_DIR, name), overrides).parameters;
+  return read_deck(fmt::format("{}/examples/{}/input.dat", source_tree(), name), overrides).parameters;
 }
 
 }  // namespace treejet

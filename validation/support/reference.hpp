@@ -9,12 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "validation/support/installation.hpp"
+
 namespace treejet {
 
 struct Reference {
   /// Of input-1.csv, input-2.csv, input-3.csv: one row a print time, row 0 the start.
   explicit Reference(const std::string& file) {
-    std::ifstream in(std::string(TREEJET_SOURCE_DIR) + "/validation/reference/" + file);
+    std::ifstream in(source_tree() + "/validation/reference/" + file);
     if (!in) throw std::runtime_error("cannot read " + file);
     std::string line, word;
     std::getline(in, line);  // where it comes from

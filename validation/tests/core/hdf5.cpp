@@ -48,7 +48,8 @@ const H5md::Content content{{"1.2.3",
                              "HDF5",
                              "input.dat",
                              "system 3\nfinish\n",
-                             {"tolerance 1.d-5"}},
+                             {"tolerance 1.d-5"},
+                             {}},
                             {"x", "curn"},
                             {{"solvent", "g"}}};
 constexpr int frames = 70;

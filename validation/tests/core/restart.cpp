@@ -158,7 +158,7 @@ TEST_CASE("Saving a checkpoint between all steps changes no bit and keeps the la
   CHECK(saved > 20);
   for (const char* file : {"statdat.dat", "traj.xyz", "traj.h5", "traj.xdmf"})
     CHECK(read_whole(plain.path / file) == read_whole(saving.path / file));
-  CHECK(std::distance(fs::directory_iterator(saving.path), {}) == 5);  // these and run.json
+  CHECK(std::distance(fs::directory_iterator(saving.path), {}) == 6);  // these, run.json and the last state
 }
 
 TEST_CASE("A checkpoint that is not sound is refused, and the older one gives the same bytes") {
@@ -195,11 +195,14 @@ TEST_CASE("A checkpoint that is not sound is refused, and the older one gives th
   for (const char* file : {"statdat.dat", "traj.xyz"})
     CHECK(read_whole(whole.path / file) == read_whole(stopped.path / file));
 
+  fs::remove(stopped.path / "checkpoint.end");
   overwrite(newest, "");
   overwrite(stopped.path / "checkpoint.old", damaged);
   CHECK_THROWS_AS(resumption(stopped.path, this_program), FileError);
   CHECK_THROWS_WITH(resumption(stopped.path, this_program),
                     Catch::Contains("checkpoint.old: damaged") && Catch::Contains("checkpoint: cut short"));
+  CHECK(resumption(whole.path, this_program).checkpoint.t > 1.9e-4);
+  fs::remove(whole.path / "checkpoint.end");
   CHECK_THROWS_WITH(resumption(whole.path, this_program), Catch::Contains("no checkpoint here"));
 }
 

@@ -25,7 +25,7 @@ threads=1
 short() { "$treejet" run "$pvp" --threads $threads --set "final time 5.d-4" --set "print time 1.d-4" --set "print xyz 2.5d-4" --set "print xyz maxnum 12" "$@"; }
 
 expect 0 "a run" short --out a
-is "files of a run" "$(ls a | tr '\n' ' ')" "run.json statdat.dat traj.xyz "
+is "files of a run" "$(ls a | tr '\n' ' ')" "checkpoint.end run.json statdat.dat traj.xyz "
 is "first line of statdat.dat" "$(head -1 a/statdat.dat)" "# t[s] x[cm] yz[cm] n[1] vn[cm/s] vc[cm/s] curn[statC/s] curc[statC/s] rc[cm] rrr[1] lp[cm] angl[degree]"
 is "rows of statdat.dat" "$(grep -vc '^#' a/statdat.dat)" 6
 is "numbers in each row" "$(grep -v '^#' a/statdat.dat | awk '{print NF}' | sort -u)" 12
@@ -53,7 +53,7 @@ expect 0 "a run with --set" short --out set --set "external potential 20."
 cmp -s before set/statdat.dat && fail "--set changed nothing"
 
 expect 0 "a run without outputs" "$treejet" run "$source/examples/single-bead/input.dat" --quiet --out none --set "final time 1.d-6" --set "print time 1.d-7"
-is "files of a run that asks for statdat.dat only" "$(ls none | tr '\n' ' ')" "run.json statdat.dat "
+is "files of a run that asks for statdat.dat only" "$(ls none | tr '\n' ' ')" "checkpoint.end run.json statdat.dat "
 
 expect 0 "a run with a tree" short --out tree --set "points 600" --set "initial length 12" --set "coulomb tree" --set "coulomb accuracy 1.d-4" --set "printstat list t n ferr ferrmax"
 grep -q '^# t = .*tree of order' tree/statdat.dat || fail "statdat.dat does not tell how the forces were computed"
@@ -71,6 +71,15 @@ expect 2 "a misspelt override" short --out wrong --set "viscosty 3"
 [ -e wrong ] && fail "a wrong override left something behind"
 expect 2 "an unknown option" "$treejet" run "$pvp" --fast
 expect 2 "no command" "$treejet"
+expect 2 "a misspelt command" "$treejet" runn x
+grep -q 'did you mean run?' err || fail "the message does not name the nearest command: $(cat err)"
+expect 2 "a directive without quotes" "$treejet" run "$pvp" --set final time 9
+grep -q -- '--set "final time 9"' err || fail "the message does not quote the directive: $(cat err)"
+expect 2 "more threads than any machine has" env OMP_NUM_THREADS=99999999999 "$treejet" run "$pvp" --out wrong
+grep -q 'OMP_NUM_THREADS' err || fail "the message does not name OMP_NUM_THREADS: $(cat err)"
+expect 0 "help of a command" "$treejet" field --help
+is "lines of the lesson in the help of a command" "$(grep -c 'Exit codes' out)" 0
+grep -q 'direct|tree' out || fail "the help of field does not name its words: $(cat out)"
 expect 2 "a wrong number of threads" short --out wrong --threads 0
 expect 4 "a deck that is not there" "$treejet" run nowhere.dat
 grep -q nowhere.dat err || fail "the message does not name the deck"
@@ -112,10 +121,24 @@ for signal in TERM USR1 INT; do
   grep -q -- --resume err || fail "the message does not tell of --resume"
   expect 0 "going on after $signal" "$treejet" run --resume $signal --quiet --threads 2
   same $signal "a run stopped by $signal"
-  is "files of a run stopped by $signal" "$(ls $signal | tr '\n' ' ')" "run.json statdat.dat traj.xyz "
+  is "files of a run stopped by $signal" "$(ls $signal | tr '\n' ' ')" "checkpoint.end run.json statdat.dat traj.xyz "
 done
 expect 0 "resuming a run that has ended" "$treejet" run --resume TERM
 grep -q 'already at its end' out || fail "resuming a run that has ended does not say so: $(cat out)"
+
+# Beyond its end, and with its jet under another voltage.
+expect 0 "extending a run" "$treejet" run --resume TERM --set "final time 4.5d-2" --quiet
+is "last time of an extended run" "$(tail -1 TERM/statdat.dat | awk '{printf "%.4f", $1}')" 0.0450
+expect 0 "extending it again to the same end" "$treejet" run --resume TERM --set "final time 4.5d-2"
+grep -q 'already at its end' out || fail "extending to the same end does not say so: $(cat out)"
+expect 2 "extending with another viscosity" "$treejet" run --resume TERM --set "viscosity 30"
+cp -r whole source
+expect 0 "beginning with another run's jet" "$treejet" run "$pvp" --quiet --out onward --from source --set "final time 4.2d-2" --set "print time 1.d-4" --set "external potential 11 kV"
+is "first time of it" "$(awk '!/^#/ {printf "%.3f", $1; exit}' onward/statdat.dat)" 0.040
+grep -q '^## begins with source/checkpoint.end, t = 0.0.* external potential' onward/statdat.dat || fail "statdat.dat does not tell with what it begins"
+diff -r whole source >/dev/null || fail "a run that another one began with was changed"
+expect 2 "beginning where the other run is" "$treejet" run "$pvp" --out source --from source --force
+diff -r whole source >/dev/null || fail "a refused run changed the one it was to begin with"
 
 # What is going on in a directory is left alone by a second run there, whatever it asks for.
 "$treejet" run "$pvp" --quiet --set "checkpoint 0.1" --set "tolerance 1.d-12" --out going &
@@ -125,6 +148,7 @@ expect 4 "a second run where one is going on" "$treejet" run "$pvp" --quiet --ou
 [ -e going/checkpoint ] || fail "a refused run removed the checkpoints of the one going on"
 expect 4 "resuming a run that is going on" "$treejet" run --resume going
 grep -q 'is running there' err || fail "the message does not tell that a run is going on: $(cat err)"
+expect 0 "a look at its checkpoint" "$treejet" info going/checkpoint
 kill -TERM $run
 wait $run
 is "exit code of the run that was left alone" $? 75
@@ -152,7 +176,8 @@ expect 75 "a run with no time" long --out late --walltime 0.001
 expect 2 "resuming with another deck" "$treejet" run --resume late "$pvp" --set "viscosity 30"
 grep -q 'viscosity: 30 here, 20 there' err || fail "the message does not name the difference: $(cat err)"
 expect 2 "--resume with --out" "$treejet" run --resume late --out elsewhere
-expect 2 "a malformed walltime" long --out wrong --walltime 1:70:00
+for time in 1:70:00 1-24:00:00 29:60 0 -5 1:2:3:4 30kV 1x; do expect 2 "walltime $time" long --out wrong --walltime $time; done
+for time in 1-00:00:00 29:58 24:00:00 1-0 30min 2h 90:00; do expect 0 "walltime $time" short --quiet --out "within-$time" --walltime $time; done
 head -c 100 late/checkpoint >cut && mv cut late/checkpoint
 expect 4 "resuming from a checkpoint cut short" "$treejet" run --resume late
 grep -q 'late/checkpoint: cut short' err || fail "the message does not tell what is wrong: $(cat err)"
@@ -190,7 +215,7 @@ fi
 # The HDF5 trajectory, and what else it can become.
 hdf5() { short --quiet --set "print hdf5 1.d-4" "$@"; }
 expect 0 "a run with print hdf5" hdf5 --out h5
-is "files of a run with print hdf5" "$(ls h5 | tr '\n' ' ')" "run.json statdat.dat traj.h5 traj.xdmf traj.xyz "
+is "files of a run with print hdf5" "$(ls h5 | tr '\n' ' ')" "checkpoint.end run.json statdat.dat traj.h5 traj.xdmf traj.xyz "
 threads=2
 expect 0 "the same again on two threads" hdf5 --out h5again
 threads=1

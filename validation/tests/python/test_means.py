@@ -1,5 +1,6 @@
 """Steady means on series whose answers are known in closed form."""
 
+import json
 import math
 
 import numpy as np
@@ -95,3 +96,34 @@ def test_means_leave_out_clocks_and_the_state_at_the_start():
     t = np.arange(101.0)
     table = Observables({"t": t, "x": np.r_[1e9, np.full(100, 2.0)], "cpu": t}, {"t": "s", "x": "cm", "cpu": "s"})
     assert steady_means(table).keys() == {"x"} and steady_means(table)["x"].mean == 2 and steady_means(table)["x"].start >= 1
+
+
+def test_the_program_finds_the_means_that_this_package_finds_in_its_files(jet):
+    record = json.loads((jet.directory / "run.json").read_text())
+    ours = steady_means(jet.observables)
+    time = jet.observables["t"]
+    assert {"n", "vc", "curc", "x"} <= record["means"].keys() <= {k for k, m in ours.items() if m.values}
+    for key, theirs in record["means"].items():
+        m = ours[key]
+        # a value that no longer changes: where rounding puts the least variance does not matter
+        if key in ("vn", "vc", "rc", "rrr"):
+            assert theirs["mean"] == pytest.approx(m.mean, rel=1e-9)
+            continue
+        assert (theirs["values"], theirs["block"], theirs["steady"], theirs["from"]) == (m.values, m.block, m.steady, time[m.start])
+        # sums in another order: some 40 values
+        assert theirs["mean"] == pytest.approx(m.mean, rel=1e-13)
+        assert theirs["error"] is None and math.isnan(m.error) or theirs["error"] == pytest.approx(m.error, rel=1e-9)
+
+
+def test_the_record_of_a_run_tells_its_effort_and_where_its_time_went(jet):
+    record = json.loads((jet.directory / "run.json").read_text())
+    effort, segment = record["effort"], record["segments"][-1]
+    assert effort["inserted"] - effort["arrived"] + 1 == effort["beads"] == jet.observables["n"][-1]
+    assert effort["evaluations"] > effort["steps"] > 100
+    assert segment["gatherings"] == 0 and 0 < segment["compute"] <= segment["wall_seconds"]
+
+
+def test_a_value_that_is_tended_to_without_noise_is_steady_once_the_rest_is_a_millionth():
+    t = np.arange(400)
+    assert steady_mean(5 + np.exp(-t / 10)).steady
+    assert not steady_mean(5 + np.exp(-t / 200)).steady

@@ -138,3 +138,14 @@ def test_a_python_without_the_modules_is_told_with_the_packages(tmp_path):
                           env={**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}"})
     assert told.returncode == 4
     assert "apt-get install python3-numpy python3-h5py python3-matplotlib" in told.stderr
+
+
+def test_a_run_begins_with_the_jet_of_another_and_is_extended(deck, jet, tmp_path):
+    began = treejet.run(deck, tmp_path / "next", begin_with=f"{jet.directory}@4ms", threads=1, print_time="2e-4", print_xyz="4e-4",
+                        print_hdf5="4e-4", final_time="5e-3", collector_distance="0.3", external_potential="11 kV")
+    assert began.observables["t"][0] == pytest.approx(4e-3) and began.observables["x"][0] == pytest.approx(
+        jet.frames[10].position[0, 0], rel=1e-12)  # a few roundings
+    longer = treejet.extend(tmp_path / "next", "6 ms")
+    assert longer.observables["t"][-1] == pytest.approx(6e-3) and longer.finished
+    with pytest.raises(treejet.TreejetError, match="no frame at t"):
+        treejet.run(deck, tmp_path / "wrong", begin_with=f"{jet.directory}@4.1ms")

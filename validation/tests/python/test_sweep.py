@@ -3,7 +3,9 @@
 import csv
 import json
 import os
+import signal
 import subprocess
+import time
 
 import pytest
 import treejet
@@ -102,3 +104,28 @@ def test_the_command_writes_table_and_picture(quick, tmp_path):
     assert len(table(tmp_path / "out")) == 3
     assert (tmp_path / "out" / "sweep.png").read_bytes().startswith(b"\x89PNG")
     assert os.listdir(tmp_path / "out" / "002")
+
+
+def test_tasks_of_a_job_array_make_the_points_and_the_sweep_finds_them_finished(quick, tmp_path):
+    (tmp_path / "points.csv").write_text("viscosity\n10\n20\n15\n")
+    words = [treejet.find(), "sweep", quick, "--list", tmp_path / "points.csv", "--out", tmp_path / "out"]
+    tasks = [subprocess.Popen([*words, "--only", str(k)]) for k in (1, 2, 3)]
+    assert [task.wait() for task in tasks] == [0, 0, 0]
+    assert not (tmp_path / "out" / "sweep.csv").exists()
+    written = {k: (tmp_path / "out" / k / "run.json").stat().st_mtime_ns for k in ("001", "002", "003")}
+    points = treejet.sweep(quick, from_csv(tmp_path / "points.csv"), tmp_path / "out")
+    assert [p.exit_code for p in points] == [0, 0, 0] and len(table(tmp_path / "out")) == 3
+    assert {k: (tmp_path / "out" / k / "run.json").stat().st_mtime_ns for k in written} == written
+    with pytest.raises(treejet.InputError, match="no point 4"):
+        treejet.sweep(quick, from_csv(tmp_path / "points.csv"), tmp_path / "out", only=4)
+
+
+def test_a_signal_ahead_of_the_end_stops_the_runs_with_checkpoints(quick, tmp_path):
+    out, endless = tmp_path / "out", tmp_path / "endless.dat"
+    endless.write_text(quick.read_text().replace("final time 4.d-3", "final time 100."))
+    sweep = subprocess.Popen([treejet.find(), "sweep", endless, "--vary", "viscosity: 10, 20", "--jobs", "2", "--out", out])
+    while not all((out / k / "run.json").exists() for k in ("001", "002")):
+        time.sleep(0.02)
+    sweep.send_signal(signal.SIGUSR1)
+    assert sweep.wait() == 75
+    assert all((out / k / "checkpoint").exists() for k in ("001", "002"))
