@@ -182,7 +182,7 @@ void MultirateMotion<D>::continued_ends(const Jet<D>& jet, double t, const State
     accelerate({0, slow.first}, slope);
     accelerate({slow.last, n}, slope);
   }
-  if (full_.fed_element()) full_.bind_held(chain_, coulomb_on_held(w), slope);
+  if (local_.fed_element()) local_.bind_held(chain_, coulomb_on_held(w), slope);
 }
 
 /// Q times the field at the held bead: of the points near to the young end, and, continued from beads n-1 to

@@ -119,7 +119,8 @@ class Composer {
     add(
         p_.self_field == SelfField::slender && g_.Q != 0,
         g_.Q == 0 ? "density charge is 0" : "self field point",
-        [&] { return std::make_unique<SlenderSelfField<D>>(g_.Q, section()); }, "slender self-field");
+        [&] { return std::make_unique<SlenderSelfField<D>>(g_.Q, section(), p_.refinement); },
+        "slender self-field");
     add_air();
     add_noise();
     for (auto& force : own.forces) {
@@ -175,10 +176,12 @@ class Composer {
         : p_.cutoff                              ? "cutoff"
         : properties(chosen_scheme(p_)).implicit ? "a scheme that solves for the local terms"
         : g_.Q == 0                              ? "no Coulomb sum"
-        : !smooth_stress_                        ? "the stress law has a kink or all but a jump"
-        : stiffness(p_).relaxes_between_beads()  ? "stress or drag relaxes within the interval of beads"
-        : !hasty.empty()                         ? hasty.c_str()
-                                                 : nullptr;
+        : p_.refinement && p_.self_field == SelfField::slender
+            ? "where unequal elements meet the self-field of several makes one force"
+        : !smooth_stress_                       ? "the stress law has a kink or all but a jump"
+        : stiffness(p_).relaxes_between_beads() ? "stress or drag relaxes within the interval of beads"
+        : !hasty.empty()                        ? hasty.c_str()
+                                                : nullptr;
     note(!why_not, "two rates", "multirate auto", why_not);
     return !why_not;
   }

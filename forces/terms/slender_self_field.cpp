@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/base/simd_clones.hpp"
+#include "forces/terms/joints.hpp"
 #include "forces/terms/wide_logarithm.hpp"
 
 namespace treejet {
@@ -35,6 +36,13 @@ double tension_factor(const Logarithm& g) {
 }
 double stiffness_factor(const Logarithm& g) {
   return 2 * g.value - 4.5 * g.slope + 2.25 * sharpness * g.slope * (1 - g.slope);
+}
+
+/// That of the joints; the youngest element, which grows, counts like the one below it.
+Eigen::ArrayXd joints_between(Eigen::ArrayXd volume) {
+  const Eigen::Index n = volume.size();
+  if (n > 1) volume[n - 1] = volume[n - 2];
+  return tension_of_joints(volume);
 }
 
 /// The arrays of a chain that the tension of an element is made of, from one element on.
@@ -92,6 +100,14 @@ double SlenderSelfField<D>::charges(const Chain<D>& c, int i) const {
 }
 
 template <int D>
+void SlenderSelfField<D>::prepare(const Chain<D>& c, Rows, Threads) {
+  const int settled = c.beads - 1;  // elements whose volume has stopped to grow
+  if (!uneven_ || (joints_.size() == c.beads && (volume_ == c.volume.head(settled)).all())) return;
+  volume_ = c.volume.head(settled);
+  joints_ = joints_between(c.volume);
+}
+
+template <int D>
 void SlenderSelfField<D>::add(const Chain<D>& c, Rows rows, Acceleration<D>& a) const {
   constexpr int at_once = 32;  // the limiter is at work near the nozzle only
   const double far = where_limiter_is_gone(section_);
@@ -114,6 +130,11 @@ void SlenderSelfField<D>::add(const Chain<D>& c, Rows rows, Acceleration<D>& a) 
     const bool youngest = last == c.beads;
     if (close) set_tensions<true>(elements, count - youngest, to);
     if (!close) set_tensions<false>(elements, count - youngest, to);
+    if (uneven_)
+      for (int k = 0; k < count - youngest; ++k) {
+        const double line = c.volume[element + k] * c.inverse_length[element + k];
+        to[k] += charges(c, element + k) * line * line * joints_[element + k];
+      }
     if (youngest) to[count - 1] = tension_of_youngest(c);
     const auto t = columns<D>(c.tangent);
     const int between = std::max(first, 1);
@@ -130,51 +151,53 @@ struct Answer {
   double energy, tension, stiffness;
 };
 
-Answer answer(Section section, double V, double l) {
+/// `joint`: what unequal neighbours add to T.
+Answer answer(Section section, double V, double l, double joint) {
   const double line = V / l;
   const Logarithm g = limited(plain_g(1 / l, section.squared_radius(line)));
-  return {V * line * g.value, line * line * tension_factor(g), line * line / l * stiffness_factor(g)};
+  return {V * line * (g.value - joint), line * line * (tension_factor(g) + joint), line * line / l * (stiffness_factor(g) - 2 * joint)};
 }
 
 /// Of the youngest element, of length d, by d.
 template <int D>
-Answer of_youngest(const Chain<D>& c, Section section) {
+Answer of_youngest(const Chain<D>& c, Section section, double joint) {
   const int i = c.beads - 1;
   const double V = c.volume[i], d = 1 / c.inverse_length[i];
   if (c.held_mass > 0) {
     // dU/dd of V elements in a row is that of one of them
-    const Answer one = answer(section, 1, d / V);
+    const Answer one = answer(section, 1, d / V, joint);
     const double lack = lack_of_growing(V) * V * V / d;
     return {V * one.energy - lack, one.tension + lack / d, one.stiffness / V - 2 * lack / (d * d)};
   }
-  const Answer whole = answer(section, V, d);
+  const Answer whole = answer(section, V, d, joint);
   const double s = c.holds_bead() ? c.point_charge[c.beads] : 0;
   if (s == 0) return whole;
   using std::numbers::pi;
   const double l_step = section.l_step,
                fading = s < 1 ? pi / l_step * std::sin(2 * pi * (d / l_step - 1.5)) : 0;
-  const Answer below = answer(section, V, d - l_step);
+  const Answer below = answer(section, V, d - l_step, joint);
   return {std::numeric_limits<double>::quiet_NaN(), (1 - s) * whole.tension + s * below.tension,
           (1 - s) * whole.stiffness + s * below.stiffness + fading * (below.tension - whole.tension)};
 }
 
 template <int D>
-Answer of_element(const Chain<D>& c, int i, Section section) {
-  return i + 1 == c.beads ? of_youngest(c, section) : answer(section, c.volume[i], 1 / c.inverse_length[i]);
+Answer of_element(const Chain<D>& c, int i, Section section, double joint) {
+  return i + 1 == c.beads ? of_youngest(c, section, joint)
+                          : answer(section, c.volume[i], 1 / c.inverse_length[i], joint);
 }
 
 }  // namespace
 
 template <int D>
 double SlenderSelfField<D>::tension_of_youngest(const Chain<D>& c) const {
-  return charges(c, c.beads - 1) * of_youngest(c, section_).tension;
+  return charges(c, c.beads - 1) * of_youngest(c, section_, uneven_ ? joints_[c.beads - 1] : 0).tension;
 }
 
 /// T t has the derivative  T' t t' + T / l (1 - t t')  by d.
 template <int D>
 void SlenderSelfField<D>::differentiate(const Chain<D>& c, LocalJacobian<D>& J) const {
   for (int i = 0; i < c.beads; ++i) {
-    const Answer T = of_element(c, i, section_);
+    const Answer T = of_element(c, i, section_, uneven_ ? joints_[i] : 0);
     using Block = Eigen::Matrix<double, D, D>;
     const Vec<D> t = c.tangent.row(i).matrix().transpose();
     const Block along = t * t.transpose();
@@ -186,7 +209,9 @@ void SlenderSelfField<D>::differentiate(const Chain<D>& c, LocalJacobian<D>& J) 
 template <int D>
 double SlenderSelfField<D>::energy(const Chain<D>& c) const {
   double sum = 0;
-  for (int i = 0; i < c.beads; ++i) sum += charges(c, i) * of_element(c, i, section_).energy;
+  const Eigen::ArrayXd joints =
+      uneven_ ? joints_between(c.volume) : Eigen::ArrayXd(Eigen::ArrayXd::Zero(c.beads));
+  for (int i = 0; i < c.beads; ++i) sum += charges(c, i) * of_element(c, i, section_, joints[i]).energy;
   return sum;
 }
 
