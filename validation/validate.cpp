@@ -12,6 +12,7 @@
 #include "core/base/version.hpp"
 #include "core/observe/progress.hpp"
 #include "forces/coulomb/coulomb.hpp"
+#include "validation/support/deck_folder.hpp"
 #include "validation/support/distributed_run.hpp"
 #include "validation/support/installation.hpp"
 #include "validation/support/machine.hpp"
@@ -135,6 +136,13 @@ int main(int argc, char** argv) {
   };
   add("all", "All of the following, one report");
   for (const Study& s : studies) add(s.name, s.meaning);
+  treejet::DeckFolder folder;
+  auto& decks =
+      *app.add_subcommand("decks", "Runs a folder of decks, each for a while: what it needs and gives");
+  decks.add_option("DIR", folder.directory, "folder of decks, *.dat")->required();
+  decks.add_option("--seconds", folder.seconds, "of the processor for each")->capture_default_str();
+  decks.add_flag("--as-written", folder.as_written, "by the decks' own time steps, not by tolerance 1e-6");
+  decks.add_option("--out", directory, "directory of the table")->capture_default_str();
   treejet::ScalingRun scaling_run;
   bool tree = false;
   auto& single =
@@ -166,6 +174,11 @@ int main(int argc, char** argv) {
     if (pieces.parsed()) {
       ranks = treejet::join_ranks();
       fmt::print("{}", text(measure(distributed_run, ranks)));
+      return 0;
+    }
+    if (decks.parsed()) {
+      Report report(directory, quick);
+      run_decks(folder, report);
       return 0;
     }
     if (single.parsed()) {

@@ -36,6 +36,7 @@ class Relations {
     refinement();
     feed();
     fluid();
+    field();
     drag();
     randomness();
     output();
@@ -237,6 +238,44 @@ class Relations {
          "no effect: in stress law herschel-bulkley no sign changes with the strain rate");
   }
 
+  void field() {
+    const Wave wave = p_.field_wave;
+    const bool periodic = wave == Wave::sine || wave == Wave::square || wave == Wave::rc ||
+                          wave == Wave::restart || wave == Wave::rotating;
+    const bool capacitor = wave == Wave::rc || wave == Wave::restart, vector = is_given("field vector");
+    needs(periodic, "field frequency");
+    needs(capacitor || wave == Wave::ramp, "field time");
+    needs(wave == Wave::table, "field table");
+    needs(wave == Wave::rotating, "field vector");
+    note(!periodic && p_.field_phase != 0, "field phase", "no effect without a periodic field wave");
+    error(vector && p_.field_vector.size() != 3, {"field vector"}, "expected three numbers, for x, y and z");
+    error(vector && is_given("external potential"), {"field vector", "external potential"},
+          "expected no external potential besides, which is its first number");
+    error(vector && p_.system == 1, {"field vector", "system"}, "expected external potential in system 1");
+    error(vector && p_.field_needle, {"field needle", "field vector"},
+          "expected external potential: the field of a needle has its own direction");
+    bool ordered = p_.field_table.size() % 2 == 0;
+    for (std::size_t k = 2; k + 1 < p_.field_table.size(); k += 2)
+      ordered &= p_.field_table[k] > p_.field_table[k - 2];
+    error(!ordered, {"field table"}, "expected pairs of a time, later each time, and a factor");
+    const double pull =
+        (p_.field_vector.empty() ? p_.external_potential : p_.field_vector[0]) * p_.density_charge;
+    note(pull < 0, vector ? "field vector" : "external potential",
+         "with this sign of density charge the field drives beads back to the nozzle");
+    constexpr double most_halves = 1e9;
+    const double halves = 2 * p_.field_frequency.value_or(0) * p_.final_time;
+    error(halves > most_halves, {"field frequency", "final time"},
+          fmt::format("expected at most {:.3g} Hz: at most {:.0e} half periods in final time ({} s)",
+                      most_halves / (2 * p_.final_time), most_halves, p_.final_time));
+  }
+
+  /// A detail that this field wave is made of, and others are not.
+  void needs(bool needed, const char* detail) {
+    error(needed && !is_given(detail), {"field wave"}, fmt::format("expected {} to be given, too", detail));
+    if (std::string_view(detail) != "field vector")
+      note(!needed && is_given(detail), detail, "no effect with this field wave");
+  }
+
   void drag() {
     constexpr const char* details[] = {"airdrag airdensity", "airdrag airviscosity", "airdrag airvelocity",
                                        "airdrag model",      "airdrag lift",         "airdrag amplitude"};
@@ -307,7 +346,7 @@ class Relations {
   void finite_scales() {
     const Scales s = scales(p_);
     const Groups g = groups(p_);
-    const bool charged = p_.density_charge > 0;
+    const bool charged = p_.density_charge != 0;
     struct Product {
       const char* name;
       double value;
@@ -319,7 +358,7 @@ class Relations {
                                 {"mass", s.mass, true},
                                 {"charge", s.charge, charged},
                                 {"Q (Coulomb)", g.Q, charged},
-                                {"V (external field)", g.V, charged && p_.external_potential > 0},
+                                {"V (external field)", g.V, charged && p_.external_potential != 0},
                                 {"F_ve (viscoelastic)", g.F_ve, true},
                                 {"A (surface tension)", g.A, p_.surface_tension > 0},
                                 {"F_g (gravity)", g.F_g, p_.gravity},

@@ -27,9 +27,9 @@ using Member =
                  Scheme Parameters::*, EventRule Parameters::*, Multirate Parameters::*, Units Parameters::*,
                  CoulombSum Parameters::*, TreeOrder Parameters::*, ExpansionKind Parameters::*,
                  ParallelData Parameters::*, std::optional<bool> Parameters::*, DragModel Parameters::*,
-                 SelfField Parameters::*, SurfaceModel Parameters::*, StressLawKind Parameters::*,
-                 EvaporationModel Parameters::*, SolventName Parameters::*, Feed Parameters::*,
-                 Model Parameters::*>;
+                 Wave Parameters::*, std::vector<double> Parameters::*, SelfField Parameters::*,
+                 SurfaceModel Parameters::*, StressLawKind Parameters::*, EvaporationModel Parameters::*,
+                 SolventName Parameters::*, Feed Parameters::*, Model Parameters::*>;
 
 struct Directive {
   std::string_view words;

@@ -6,7 +6,6 @@ namespace {
 
 constexpr std::string_view split =
     "the Coulomb sum is split by the program, see multirate; leave the line out";
-constexpr std::string_view waves = "the potential is constant; leave the line out";
 constexpr std::string_view resumed =
     "a run goes on with treejet run --resume DIR, see checkpoint; leave the line out";
 
@@ -30,12 +29,6 @@ const Foreign table[] = {
     {"maximum displacement", "multiple step", split, {}, false, true},
     {"multiple step", "multiple step", "the Coulomb sum is split by the program; write multirate auto or no", "no",
      false, true},
-    {"external potential type", "varying potential", waves, "0", false, true},
-    {"external potential freq", "varying potential", waves, {}, false, true},
-    {"external potential phase", "varying potential", waves, {}, false, true},
-    {"external potential time", "varying potential", waves, {}, false, true},
-    {"external potential vector", "varying potential", "the field points from the nozzle to the collector; leave the line out",
-     {}, false, true},
     {"lorentz", "magnetic field", "magnetic fields are not modelled; leave the line out", "no", false, true},
     {"magnetic", "magnetic field", "magnetic fields are not modelled; leave the line out", "no", false, true},
     {"mirror", "image charges", "the collector has no image charges; leave the line out", "no", false, true},

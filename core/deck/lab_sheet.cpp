@@ -105,7 +105,7 @@ class Sheet {
       add({"bending", "lambda^2/(pi a alpha)", lambda * lambda / (pi * a_ * p_.surface_tension), "",
            "repulsion over surface tension in a bend: above 1, but for a logarithm of the wave length, bends "
            "grow"});
-    const double surface = 2 * lambda / a_ * kilovolt_per_statvolt;
+    const double surface = 2 * std::abs(lambda) / a_ * kilovolt_per_statvolt;
     const double onset = peek_field(a_);
     add({"surface_field", "surface field", surface, "kV/cm", "2 lambda/a at the nozzle's radius",
          surface > onset ? "above the corona's onset: air takes such a charge from a jet" : ""});

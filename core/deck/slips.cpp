@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace treejet {
 
 namespace {
@@ -38,8 +40,8 @@ std::string likely_slip(const Directive& d, double number, Units units) {
   const std::string_view unit = bare_unit(d, units);
   for (const Range& r : ranges) {
     if (r.words != d.words || r.unit != unit || number == 0) continue;
-    if (number >= r.least && number <= r.most) return {};
-    const bool low = number < r.least;
+    if (std::abs(number) >= r.least && std::abs(number) <= r.most) return {};
+    const bool low = std::abs(number) < r.least;
     const std::string_view meant = low ? r.unit_below : r.unit_above;
     const std::string hint =
         meant == unit ? "" : fmt::format("; if {0} are meant, write {1:.10g} {0}", meant, number);

@@ -55,6 +55,13 @@ constexpr Word<SolventName> solvents[] = {{"water", SolventName::water},
                                           {"acetone", SolventName::acetone}};
 constexpr Word<Feed> feeds[] = {{"pull", Feed::pull}, {"flow", Feed::flow}};
 constexpr Word<Model> models[] = {{"paper", Model::paper}, {"slender", Model::slender}};
+// JETSPIN's numbers behind its four
+constexpr Word<Wave> waves[] = {{"constant", Wave::constant}, {"sine", Wave::sine},
+                                {"square", Wave::square},     {"rc", Wave::rc},
+                                {"restart", Wave::restart},   {"ramp", Wave::ramp},
+                                {"table", Wave::table},       {"rotating", Wave::rotating},
+                                {"0", Wave::constant},        {"1", Wave::square},
+                                {"2", Wave::restart},         {"3", Wave::rotating}};
 constexpr Word<SurfaceModel> surface_models[] = {{"paper", SurfaceModel::paper},
                                                  {"energy", SurfaceModel::energy}};
 
@@ -94,6 +101,9 @@ std::span<const Word<ParallelData>> words_of(ParallelData) {
 }
 std::span<const Word<SelfField>> words_of(SelfField) {
   return self_fields;
+}
+std::span<const Word<Wave>> words_of(Wave) {
+  return waves;
 }
 std::span<const Word<DragModel>> words_of(DragModel) {
   return drag_models;
@@ -150,6 +160,9 @@ std::string kind(double) {
 std::string kind(int) {
   return "integer";
 }
+std::string kind(const std::vector<double>&) {
+  return "reals";
+}
 std::string kind(const std::vector<std::string>&) {
   return "keys";
 }
@@ -167,6 +180,7 @@ std::string expected(const Directive& d) {
   std::string text = argument(d);
   if (text == "real") text = "a real number";
   if (text == "integer") text = "an integer";
+  if (text == "reals") text = "real numbers";
   if (text == "keys") text = "keys of observables";
   return fmt::format("expected {}{}, ", text, d.unit.empty() ? "" : fmt::format(" ({})", d.unit));
 }
@@ -227,6 +241,17 @@ std::string read(const Directive& d, Arguments a, int& target) {
   return read_number(d, a, integer, target);
 }
 
+std::string read(const Directive& d, Arguments arguments, std::vector<double>& target) {
+  if (arguments.empty()) return expected(d) + found(arguments);
+  std::vector<double> numbers(arguments.size());
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const std::string problem = read_number(d, arguments.subspan(k, 1), real_number, numbers[k]);
+    if (!problem.empty()) return problem;
+  }
+  target = std::move(numbers);
+  return {};
+}
+
 std::string read(const Directive& d, Arguments arguments, std::vector<std::string>& target) {
   if (arguments.empty()) return expected(d) + found(arguments);
   const std::vector<std::string_view> keys = known_keys();
@@ -269,6 +294,9 @@ std::string text(double value) {
 }
 std::string text(int value) {
   return fmt::format("{}", value);
+}
+std::string text(const std::vector<double>& numbers) {
+  return fmt::format("{}", fmt::join(numbers, " "));
 }
 std::string text(const std::vector<std::string>& keys) {
   return fmt::format("{}", fmt::join(keys, " "));

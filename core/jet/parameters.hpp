@@ -18,6 +18,7 @@ enum class TreeOrder { automatic, chain, space };
 enum class ExpansionKind { local, none };
 enum class SelfField { point, slender };
 enum class SurfaceModel { paper, energy };
+enum class Wave { constant, sine, square, rc, restart, ramp, table, rotating };
 enum class DragModel { jetspin, full };
 enum class Feed { pull, flow };
 enum class Model { paper, slender };
@@ -34,6 +35,17 @@ struct CoulombSetting {
   std::optional<double> coulomb_opening = {};
   TreeOrder coulomb_tree = TreeOrder::automatic;
   ExpansionKind coulomb_expansions = ExpansionKind::local;
+};
+
+/// How the external field goes with time and place (core/jet/waveform.hpp, forces/terms/external_field.hpp).
+struct FieldSetting {
+  Wave field_wave = Wave::constant;
+  std::optional<double> field_frequency;  ///< Hz
+  double field_phase = 0;                 ///< rad
+  std::optional<double> field_time;       ///< of capacitor or ramp, s
+  std::vector<double> field_table;        ///< t, factor, t, factor, ...; s
+  std::vector<double> field_vector;       ///< potentials over collector distance, instead of one along x
+  std::optional<double> field_needle;     ///< tip radius, cm
 };
 
 /// The gas around the jet; that of a room at 20 C and 1 atm where the deck names none.
@@ -56,7 +68,7 @@ struct NoiseSetting {
   int seed = 1;
 };
 
-struct Parameters : CoulombSetting, AirSetting, NoiseSetting {
+struct Parameters : CoulombSetting, FieldSetting, AirSetting, NoiseSetting {
   int system = 3;  ///< 1: straight jet along x; 3: three dimensions; 4: the same in air
   Units units = Units::cgs;
   Model model = Model::paper;

@@ -15,8 +15,11 @@ double charge_density(const Parameters& p) {
   return p.units == Units::real ? p.density_charge * statcoulomb_per_coulomb / litre : p.density_charge;
 }
 
-double potential(const Parameters& p) {
-  return p.units == Units::real ? p.external_potential / volt_per_statvolt : p.external_potential;
+/// That of a component of the external field, over the collector distance.
+double potential(const Parameters& p, std::size_t component) {
+  const double axial = component == 0 ? p.external_potential : 0;
+  const double potential = p.field_vector.empty() ? axial : p.field_vector[component];
+  return p.units == Units::real ? potential / volt_per_statvolt : potential;
 }
 }  // namespace
 
@@ -36,7 +39,7 @@ Scales scales(const Parameters& p) {
   s.charge = charge_density(p) * bead_volume;
   s.stress = p.elastic_modulus;
   s.time = p.viscosity / p.elastic_modulus;
-  s.length = s.charge == 0 ? s.l_step : s.charge / std::sqrt(section(p) * s.stress);
+  s.length = s.charge == 0 ? s.l_step : std::abs(s.charge) / std::sqrt(section(p) * s.stress);
   s.velocity = s.length / s.time;
   return s;
 }
@@ -46,7 +49,7 @@ Groups groups(const Parameters& p) {
   const double acceleration = s.length / (s.time * s.time);
   Groups g;
   g.Q = s.charge * s.charge / (s.length * s.length) / (s.mass * acceleration);
-  g.V = s.charge * potential(p) / p.collector_distance / (s.mass * acceleration);
+  g.V = s.charge * potential(p, 0) / p.collector_distance / (s.mass * acceleration);
   g.F_ve = section(p) * s.stress / (s.mass * acceleration);
   g.A = p.surface_tension * section(p) / s.length / (s.mass * acceleration);
   g.F_g = p.gravity ? standard_gravity / acceleration : 0;
@@ -54,6 +57,14 @@ Groups groups(const Parameters& p) {
   g.H = p.collector_distance / s.length;
   g.L_step = s.l_step / s.length;
   return g;
+}
+
+std::array<double, 3> field_groups(const Parameters& p) {
+  const Scales s = scales(p);
+  std::array<double, 3> V;
+  for (std::size_t k = 0; k < 3; ++k)
+    V[k] = s.charge * potential(p, k) / p.collector_distance / (s.mass * (s.length / (s.time * s.time)));
+  return V;
 }
 
 Gas air(const Parameters& p) {

@@ -6,6 +6,8 @@
 /// with m = q = 1; the terms divide by the scaled mass and multiply by the scaled charge of each bead.
 /// Without charge the paper's L_0 vanishes; the length scale is then l_step and Q = V = 0.
 
+#include <array>
+
 #include "core/jet/gas.hpp"
 #include "core/jet/parameters.hpp"
 
@@ -13,7 +15,7 @@ namespace treejet {
 
 struct Scales {
   double l_step;    ///< discretisation length, cm
-  double length;    ///< L_0 = l_step sqrt(pi a_0^2 rho_q^2 / G), cm
+  double length;    ///< L_0 = l_step sqrt(pi a_0^2 rho_q^2 / G), cm, whatever the sign of rho_q
   double time;      ///< tau = mu / G, s
   double stress;    ///< G, g/(cm s^2)
   double mass;      ///< of a bead, rho pi a_0^2 l_step, g
@@ -39,6 +41,9 @@ constexpr double standard_gravity = 980.665;  ///< cm/s^2
 
 Scales scales(const Parameters& p);
 Groups groups(const Parameters& p);
+
+/// The groups V of the three components of the external field; the first is that of `groups`.
+std::array<double, 3> field_groups(const Parameters& p);
 
 /// The air, scaled; it exerts forces of the scaled equations of motion.
 Gas air(const Parameters& p);

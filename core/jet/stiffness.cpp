@@ -74,10 +74,10 @@ Stiffness stiffness(const Parameters& p) {
   const double charge_density = s.charge / s.mass * p.density_mass,
                section = s.mass / p.density_mass / s.l_step;
   const double field_on_element = groups(p).V * s.mass * s.length / (s.time * s.time) / section;
-  const double drawn = speed(p, s, section * charge_density * charge_density + field_on_element);
-  const double v = p.feed == Feed::flow ? inlet_velocity(p) : std::max(drawn, p.nozzle_velocity);
+  const double drive = std::max(section * charge_density * charge_density + field_on_element, 0.0);
+  const double v = p.feed == Feed::flow ? inlet_velocity(p) : std::max(speed(p, s, drive), p.nozzle_velocity);
   const double work = field_on_element / s.l_step * p.collector_distance / p.density_mass;
-  const double drag = drag_rate(p, v, std::sqrt(v * v + 2 * work));
+  const double drag = drag_rate(p, v, std::sqrt(v * v + std::max(2 * work, 0.0)));
   const double fastest = std::max({fastest_rate(p, s), viscous_damping(p, s, v / s.l_step), drag});
   return {fastest, s.time, std::min(s.l_step / v, p.final_time), drag};
 }

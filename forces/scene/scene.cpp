@@ -14,6 +14,8 @@
 #include "forces/terms/air_drag.hpp"
 #include "forces/terms/constitutive.hpp"
 #include "forces/terms/coulomb_force.hpp"
+#include "forces/terms/external_field.hpp"
+#include "forces/terms/gravity.hpp"
 #include "forces/terms/laws/elastoviscoplastic.hpp"
 #include "forces/terms/laws/fene_p.hpp"
 #include "forces/terms/laws/giesekus.hpp"
@@ -24,7 +26,6 @@
 #include "forces/terms/slender_self_field.hpp"
 #include "forces/terms/surface_energy.hpp"
 #include "forces/terms/surface_tension.hpp"
-#include "forces/terms/uniform.hpp"
 #include "forces/terms/viscoelastic.hpp"
 #include "forces/terms/viscous_tension.hpp"
 
@@ -99,9 +100,7 @@ class Composer {
     add(
         viscous.acts(), "no solvent viscosity",
         [&] { return std::make_unique<ViscousTension<D>>(g_.L_step, g_.F_ve, viscous); }, "viscous tension");
-    add(
-        g_.V != 0, p_.density_charge == 0 ? "density charge is 0" : "external potential is 0",
-        [&] { return std::make_unique<ElectricField<D>>(g_.V); }, "external field");
+    add_field();
     add(
         g_.F_g != 0, "no gravity yes", [&] { return std::make_unique<Gravity<D>>(g_.F_g); }, "gravity");
     if (p_.surface_model == SurfaceModel::energy) {
@@ -190,6 +189,21 @@ class Composer {
   Columns columns;
 
  private:
+  void add_field() {
+    const std::array<double, 3> V = field_groups(p_);
+    const Waveform wave(p_);
+    add(
+        V != std::array<double, 3>{} && !p_.field_needle,
+        p_.density_charge == 0 ? "density charge is 0"
+        : p_.field_needle      ? "field needle"
+                               : "external potential is 0",
+        [&] { return std::make_unique<ElectricField<D>>(V, wave); }, "external field");
+    if (!p_.field_needle || g_.V == 0) return;
+    const NeedleField field(*p_.field_needle / scales(p_).length, g_.H);
+    terms_.push_back(std::make_unique<NeedlePlate<D>>(g_.V, field, wave));
+    composed.push_back({std::string(terms_.back()->name()), "field needle"});
+  }
+
   void add_air() {
     const char* no_air = "no airdrag yes";
     add(

@@ -80,6 +80,9 @@ std::vector<Extreme> extreme_decks() {
                "events step",
                "final time 0.01",
                "print time 1e-3"},
+              storm = {"airdrag yes", "airdrag model full", "airdrag airvelocity -3.e4", "final time 0.002",
+                       "print time 1e-3"},
+              hum = {"field wave square", "field frequency 1.e5", "final time 0.002", "print time 1e-3"},
               outrun = {"points 4", "perturb ampl 7e-3", "final time 0.001", "print time 1e-4"};
   return {
       {"no charge", "pvp", uncharged, as_in_another_scheme("pvp", uncharged)},
@@ -104,6 +107,9 @@ std::vector<Extreme> extreme_decks() {
        "pvp",
        {"integrator 3", "timestep 5e-3", "final time 0.05", "print time 0.005"},
        {}},
+      {"a storm of 300 m/s from the collector", "pvp", storm, as_in_another_scheme("pvp", storm)},
+      {"a potential that goes on and off a hundred times a bead", "pvp", hum,
+       as_in_another_scheme("pvp", hum)},
       {"insertion due at the start", "pvp", outrun, as_in_another_scheme("pvp", outrun)}};
 }
 

@@ -32,6 +32,7 @@ class Limited final : public RightHandSide<D> {
     if (evaluated) count();
     return evaluated;
   }
+  double smooth_from(double t) override { return motion_.smooth_from(t); }
   double longest_step() const override { return motion_.longest_step(); }
   void differentiate(const Jet<D>& jet, double t, const State<D>& y, LocalJacobian<D>& J) override {
     motion_.differentiate(jet, t, y, J);

@@ -2,7 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "forces/terms/uniform.hpp"
+#include "forces/terms/external_field.hpp"
+#include "forces/terms/gravity.hpp"
 #include "validation/support/run.hpp"
 #include "validation/support/scenes.hpp"
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "forces/terms/uniform.hpp"
 #include "validation/support/scenes.hpp"
 
 using namespace treejet;
