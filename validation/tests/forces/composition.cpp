@@ -47,17 +47,18 @@ TEST_CASE("The PVP jet is composed of every term") {
   const auto scene = compose<3>(example("pvp"), {1});
   CHECK(terms(scene) == Names{viscoelastic, field, gravity, tension, coulomb});
   CHECK(scene.motion->stress_law().name() == "Maxwell stress");
-  CHECK(named(scene.left_out) == Names{"Herschel-Bulkley stress", "slender self-field", "viscous tension", "air drag",
-                                       "air lift", "friction", "random force", "splitting and merging of elements"});
+  CHECK(named(scene.left_out) == Names{"Herschel-Bulkley stress", "slender self-field", "viscous tension",
+                                       "evaporation", "air drag", "air lift", "friction", "random force",
+                                       "splitting and merging of elements"});
 }
 
 TEST_CASE("The single bead has neither gravity nor surface tension, events or a circling nozzle") {
   const auto scene = compose<1>(example("single-bead"), {1});
   CHECK(terms(scene) == Names{viscoelastic, field, coulomb});
   CHECK(named(scene.composed) == Names{"Maxwell stress", viscoelastic, field, coulomb});
-  CHECK(named(scene.left_out) == Names{"Herschel-Bulkley stress", "viscous tension", gravity, tension, "slender self-field",
-                                       "air drag", "air lift", "friction", "random force",
-                                       "insertion at the nozzle", "removal at the collector",
+  CHECK(named(scene.left_out) == Names{"Herschel-Bulkley stress", "viscous tension", "evaporation", gravity,
+                                       tension, "slender self-field", "air drag", "air lift", "friction",
+                                       "random force", "insertion at the nozzle", "removal at the collector",
                                        "circling nozzle", "two rates", "splitting and merging of elements"});
   CHECK(reason(scene, gravity) == "no gravity yes");
   CHECK(reason(scene, tension) == "a straight jet (system 1) has no curvature");
