@@ -39,6 +39,7 @@ class Relations {
     field();
     drag();
     randomness();
+    evaporation();
     output();
     pieces();
     if (composable()) finite_scales();
@@ -307,6 +308,41 @@ class Relations {
                         p_.final_time / most_intervals, most_intervals, p_.final_time));
     note(white && is_given("events") && p_.events == EventRule::located, "events",
          "no effect with integrator sra1: a random path is not cut within a step");
+  }
+
+  void evaporation() {
+    const bool dries = p_.evaporation, by_vapour = p_.evaporation_model == EvaporationModel::vapour;
+    for (const char* detail : {"evaporation model", "evaporation polymer frac", "evaporation solvent",
+                               "evaporation temperature", "evaporation humidity", "evaporation diffusivity",
+                               "evaporation airviscosity", "evaporation vapour density", "evaporation chi",
+                               "evaporation bconstant", "evaporation mconstant", "evaporation tconstant"})
+      note(!dries && is_given(detail), detail, "no effect without evaporation yes");
+    if (!dries) return;
+    error(!is_given("evaporation polymer frac"), {"evaporation"},
+          "expected evaporation polymer frac to be given, too");
+    error(stress_law(p_) != StressLawKind::maxwell || p_.hbfluid || p_.yield_stress > 0 ||
+              p_.solvent_viscosity > 0,
+          {"evaporation", "stress law", "kvfluid", "hbfluid", "yield stress", "solvent viscosity"},
+          "expected stress law maxwell without yield stress, hbfluid or solvent viscosity: how the others "
+          "thicken is not modelled");
+    error(p_.self_field == SelfField::slender, {"evaporation", "self field"}, "expected self field point");
+    error(p_.parallel == ParallelData::distributed, {"evaporation", "parallel"},
+          "expected parallel replicated");
+    const bool other = p_.solvent != SolventName::water;
+    for (const char* detail : {"evaporation solvent", "evaporation vapour density", "evaporation chi"})
+      error(!by_vapour && is_given(detail), {detail, "evaporation model"},
+            "expected evaporation model vapour");
+    error(by_vapour && other && !p_.vapour_diffusivity, {"evaporation solvent"},
+          "expected evaporation diffusivity to be given, too, of its vapour in air");
+    note(by_vapour && other && is_given("evaporation humidity"), "evaporation humidity",
+         "no effect: air holds no vapour of this solvent far from the jet");
+    constexpr double boiling = 323.15;  // Lowe's polynomial ends there
+    error(!other && p_.temperature > boiling, {"evaporation temperature"},
+          "expected at most 323.15 for water");
+    note(!by_vapour, "evaporation",
+         "JETSPIN's law takes the ratio of pressures of vapour and air for that of the densities of vapour "
+         "and fluid: "
+         "water leaves about 1330 times too fast; evaporation model vapour conserves mass");
   }
 
   void output() {

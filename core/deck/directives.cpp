@@ -19,6 +19,8 @@ constexpr Check below_one{"positive and below 1", [](double v) { return v > 0 &&
 constexpr Check a_system{"1 (straight jet), 3 (three dimensions) or 4 (the same in air)",
                          [](double v) { return v == 1 || v == 3 || v == 4; }};
 constexpr Check up_to_one{"positive and at most 1", [](double v) { return v > 0 && v <= 1; }};
+constexpr Check up_to_one_or_zero{"from 0 to 1", [](double v) { return v >= 0 && v <= 1; }};
+constexpr Check a_temperature{"from 223.15 to 373.15", [](double v) { return v >= 223.15 && v <= 373.15; }};
 constexpr Check a_count{"from 1 to 100000000", [](double v) { return v >= 1 && v <= 1e8; }};
 constexpr Check a_factor{"from 1e-100 to 1e100", [](double v) { return v >= 1e-100 && v <= 1e100; }};
 constexpr Check an_order{tree_parameters::orders, tree_parameters::is_order};
@@ -103,6 +105,34 @@ const Directive table[] = {
      .meaning = "strain rate over which the sign of a strain rate is rounded, in hbfluid, yield stress and stress law power-law; "
                 "elements that come to rest take steps as its root",
      .absent = "a hundredth of elastic modulus / viscosity"},
+
+    {.words = "evaporation", .member = &P::evaporation,
+     .meaning = "the solvent leaves the jet, which thickens: needs polymer frac", .heading = "Evaporation", .since_1_21 = true},
+    {.words = "evaporation model", .member = &P::evaporation_model,
+     .meaning = "JETSPIN's law, 1330 times too fast for water (jetspin), or the vapour that air can hold (vapour)"},
+    {.words = "evaporation polymer frac", .member = &P::polymer_fraction, .check = below_one,
+     .meaning = "polymer in the fluid at the nozzle, by volume", .absent = "mandatory with evaporation yes",
+     .synonyms = "evaporation polymer fraction", .since_1_21 = true},
+    {.words = "evaporation solvent", .member = &P::solvent,
+     .meaning = "solvent, with model vapour; others than water need their diffusivity"},
+    {.words = "evaporation temperature", .member = &P::temperature, .check = a_temperature,
+     .meaning = "temperature of air and jet in K", .since_1_21 = true},
+    {.words = "evaporation humidity", .member = &P::humidity, .check = up_to_one_or_zero,
+     .meaning = "relative humidity of the air, of water", .synonyms = "evaporation umidity, evaporation relumidity", .since_1_21 = true},
+    {.words = "evaporation diffusivity", .member = &P::vapour_diffusivity, .unit = "cm^2/s", .check = positive,
+     .meaning = "diffusivity of the vapour in air", .absent = "that of water: 0.242 at 293.15 K", .since_1_21 = true},
+    {.words = "evaporation airviscosity", .member = &P::drying_air_viscosity, .unit = "cm^2/s", .check = positive,
+     .meaning = "kinematic viscosity of air", .since_1_21 = true},
+    {.words = "evaporation vapour density", .member = &P::vapour_density, .unit = "g/cm^3", .check = positive,
+     .meaning = "density of the saturated vapour, of any solvent", .absent = "from the solvent's vapour pressure"},
+    {.words = "evaporation chi", .member = &P::flory_chi, .check = not_negative,
+     .meaning = "Flory and Huggins' parameter of polymer and solvent, with model vapour"},
+    {.words = "evaporation bconstant", .member = &P::viscosity_b, .check = not_negative,
+     .meaning = "B of the viscosity, mu_0 10^(B (c^m - c_0^m)), c the concentration of polymer", .since_1_21 = true},
+    {.words = "evaporation mconstant", .member = &P::viscosity_m, .check = positive,
+     .meaning = "m of the viscosity", .since_1_21 = true},
+    {.words = "evaporation tconstant", .member = &P::relaxation_t,
+     .meaning = "t of the relaxation time, theta_0 (c / c_0)^t", .since_1_21 = true},
 
     {.words = "nozzle cross", .member = &P::nozzle_cross, .unit = "cm", .check = positive,
      .meaning = "radius of the jet at the nozzle", .mandatory = true, .example = "5.d-3",

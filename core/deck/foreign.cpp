@@ -13,7 +13,6 @@ constexpr std::string_view resumed =
 const Foreign table[] = {
     {"system 2", "system 2", "JETSPIN has no working system 2; write system 1 or system 3"},
     {"noise pool", "pool of random numbers", "random numbers are drawn as they are needed", {}, true, true},
-    {"evaporation", "evaporation", "all of the fluid arrives; leave the line out", "no", false, true},
     {"cutoff points", "cutoff points",
      "JETSPIN 1.00 took the number for a length in cm; write cutoff and that length, or leave the line out for "
      "the full sum", "1000"},

@@ -67,7 +67,7 @@ double water_diffusivity(double temperature) {
 
 Evaporation::Evaporation(const Parameters& p)
     : polymer_(p.polymer_fraction),
-      humidity_(p.humidity),
+      humidity_(p.solvent == SolventName::water ? p.humidity : 0),
       chi_(p.flory_chi),
       by_vapour_(p.evaporation_model == EvaporationModel::vapour),
       B_(p.viscosity_b),
@@ -79,11 +79,13 @@ Evaporation::Evaporation(const Parameters& p)
                         ? p.vapour_density.value_or(vapour_density(p.solvent, p.temperature)) / p.density_mass
                         : vapour_pressure(SolventName::water, p.temperature) / atmosphere;
   const Scales s = scales(p);
-  const double D = p.vapour_diffusivity.value_or(water_diffusivity(p.temperature)), nu = p.air_viscosity;
+  const double D = p.vapour_diffusivity.value_or(water_diffusivity(p.temperature)),
+               nu = p.drying_air_viscosity;
   // pi D Sh l over the volume of an initial bead, at a = a_0, u = the unit of velocity, l = that of length
   coefficient_ = std::numbers::pi * D * 0.495 * std::cbrt(2 * p.nozzle_cross * s.velocity / nu) *
                  std::sqrt(nu / D) * s.length / (s.mass / p.density_mass) * s.time *
                  std::pow(s.l_step / s.length, 1. / 6);  // of the radius, a^2 l = a_0^2 l_step
+  if (by_vapour_ && in_air(p)) wind_ = p.air_velocity / s.velocity;
   const double least = std::max(least_speed, inlet_velocity(p)) / s.velocity;
   least_speed2_ = least * least;
 }

@@ -46,6 +46,9 @@ class Evaporation {
   /// delta, for this solvent content.
   double driving(double w) const;
 
+  /// Velocity of the air along x; JETSPIN takes the speed of the jet alone.
+  double wind() const { return wind_; }
+
   /// dw/dt scaled, of an element of scaled length and speed; `volume` at the nozzle, that of an initial
   /// bead 1.
   double rate(double w, double length, double speed, double volume) const;
@@ -56,7 +59,7 @@ class Evaporation {
  private:
   double polymer_, activity_scale_, humidity_, chi_, driest_;
   bool by_vapour_;
-  double coefficient_, least_speed2_;
+  double coefficient_, least_speed2_, wind_ = 0;
   double B_, m_, t_;
 };
 

@@ -109,14 +109,14 @@ struct Parameters : CoulombSetting, FieldSetting, AirSetting, NoiseSetting {
   double solvent_viscosity = 0;             ///< g/(cm s)
 
   bool evaporation = false;
-  EvaporationModel evaporation_model = EvaporationModel::vapour;
+  EvaporationModel evaporation_model = EvaporationModel::jetspin;
   SolventName solvent = SolventName::water;
   double polymer_fraction = 0.06;            ///< of the fluid as it leaves the nozzle
   double temperature = 293.15;               ///< K
   double humidity = 0;                       ///< relative
   std::optional<double> vapour_density;      ///< saturated, g/cm^3
   std::optional<double> vapour_diffusivity;  ///< cm^2/s
-  double air_viscosity = 0.151;              ///< kinematic, cm^2/s
+  double drying_air_viscosity = 0.151;       ///< kinematic, cm^2/s
   double flory_chi = 0.5;
   double viscosity_b = 7, viscosity_m = 0.1;  ///< mu = mu_0 10^(B (c^m - c_0^m))
   double relaxation_t = 1;                    ///< theta = theta_0 (c/c_0)^t

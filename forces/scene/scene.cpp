@@ -14,6 +14,7 @@
 #include "forces/terms/air_drag.hpp"
 #include "forces/terms/constitutive.hpp"
 #include "forces/terms/coulomb_force.hpp"
+#include "forces/terms/evaporation.hpp"
 #include "forces/terms/external_field.hpp"
 #include "forces/terms/gravity.hpp"
 #include "forces/terms/laws/elastoviscoplastic.hpp"
@@ -79,11 +80,14 @@ class Composer {
     using enum StressLawKind;
     const StressLawKind kind = treejet::stress_law(p_);
     const bool rounded = kind == maxwell && (p_.hbfluid || p_.yield_stress > 0);
-    auto law = rounded ? jetspin_herschel_bulkley() : stress_law_of(kind);
-    const char* why = kind != maxwell ? (p_.kvfluid ? "kvfluid yes" : "stress law")
-                      : !rounded      ? "always"
-                      : p_.hbfluid    ? "hbfluid yes"
-                                      : "yield stress";
+    auto law = rounded          ? jetspin_herschel_bulkley()
+               : p_.evaporation ? std::make_unique<DryingMaxwell<D>>(Evaporation(p_))
+                                : stress_law_of(kind);
+    const char* why = kind != maxwell  ? (p_.kvfluid ? "kvfluid yes" : "stress law")
+                      : p_.evaporation ? "evaporation yes"
+                      : !rounded       ? "always"
+                      : p_.hbfluid     ? "hbfluid yes"
+                                       : "yield stress";
     composed.push_back({std::string(law->name()), why});
     if (kind == maxwell && !rounded)
       left_out.push_back({"Herschel-Bulkley stress", "no hbfluid yes, no yield stress"});
@@ -132,11 +136,21 @@ class Composer {
   }
 
   std::vector<std::unique_ptr<ColumnRate<D>>> column_rates(OwnTerms<D>& own) {
+    std::vector<std::unique_ptr<ColumnRate<D>>> rates;
+    if (p_.evaporation) {
+      rates.push_back(std::make_unique<SolventColumn<D>>(Evaporation(p_)));
+      columns.push_back(rates.back()->column());
+    }
+    note(p_.evaporation, "evaporation",
+         p_.evaporation_model == EvaporationModel::vapour ? "evaporation model vapour"
+                                                          : "evaporation model jetspin",
+         "no evaporation yes");
     for (auto& rate : own.columns) {
       columns.push_back(rate->column());
       composed.push_back({"column " + columns.back().name, "the caller's own"});
+      rates.push_back(std::move(rate));
     }
-    return std::move(own.columns);
+    return rates;
   }
 
   /// Null without charge, or where the subdomains' own solver adds it.
@@ -175,6 +189,7 @@ class Composer {
         : p_.cutoff                              ? "cutoff"
         : properties(chosen_scheme(p_)).implicit ? "a scheme that solves for the local terms"
         : g_.Q == 0                              ? "no Coulomb sum"
+        : p_.evaporation                         ? "masses change with evaporation"
         : p_.refinement && p_.self_field == SelfField::slender
             ? "where unequal elements meet the self-field of several makes one force"
         : !smooth_stress_                       ? "the stress law has a kink or all but a jump"

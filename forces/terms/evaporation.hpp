@@ -35,9 +35,11 @@ class SolventColumn final : public ColumnRate<D> {
   }
   void set(const Chain<D>& c, int added, Rows rows, Eigen::Ref<Eigen::ArrayXd> rate) const override {
     for (int i = rows.first; i < rows.last; ++i) {
-      const double w = c.column(added)[i], speed = (c.velocity(i) + c.velocity_above(i)).norm() / 2;
+      const double w = c.column(added)[i];
+      Vec<D> through = (c.velocity(i) + c.velocity_above(i)) / 2;
+      through[0] -= evaporation_.wind();
       const double volume = c.volume[i] / evaporation_.remaining(w);
-      rate[i] = evaporation_.rate(w, 1 / c.inverse_length[i], speed, volume);
+      rate[i] = evaporation_.rate(w, 1 / c.inverse_length[i], through.norm(), volume);
     }
   }
 

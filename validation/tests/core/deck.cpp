@@ -237,10 +237,10 @@ TEST_CASE("No value is guessed by its letters: on is not no, gc is not vc", "[de
 TEST_CASE(
     "A feature that is switched off, or concerns files alone, is one note whatever the number of its lines",
     "[deck]") {
-  for (const char* line : {"multiple step no", "evaporation no", "restart no", "variable mass no",
-                           "dragvel yes", "noise pool 10", "lorentz no", "mirror no", "job time 3600",
-                           "print binary 1.d-4 style 3", "printstat binary", "print pdb frame 1.d-3",
-                           "print xyz frame 1.d-2", "print rescalexyz", "cutoff points 1000"}) {
+  for (const char* line :
+       {"multiple step no", "restart no", "variable mass no", "dragvel yes", "noise pool 10", "lorentz no",
+        "mirror no", "job time 3600", "print binary 1.d-4 style 3", "printstat binary",
+        "print pdb frame 1.d-3", "print xyz frame 1.d-2", "print rescalexyz", "cutoff points 1000"}) {
     INFO(line);
     const Deck deck = parse_deck(altered("", line), name);
     const auto about = [&](const std::string& note) { return note.find(": left out") != std::string::npos; };
@@ -248,10 +248,9 @@ TEST_CASE(
     CHECK(values(deck.parameters) == values(parse_deck(sound_deck, name).parameters));
   }
   const std::vector<std::string> notes =
-      parse_deck(altered("", "evaporation no\nevaporation temperature 293.\nevaporation umidity 0.2"), name)
-          .notes;
+      parse_deck(altered("", "mirror no\nmirror 5.\nmirror 6."), name).notes;
   REQUIRE(notes.size() == 2);
-  CHECK(notes[0].starts_with("jet.dat:20: evaporation no: left out (3 lines on evaporation)"));
+  CHECK(notes[0].starts_with("jet.dat:20: mirror no: left out (3 lines on image charges)"));
   CHECK(notes[1].find("1/R^2") != std::string::npos);  // such a deck means another Coulomb law
 }
 

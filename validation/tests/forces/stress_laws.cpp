@@ -9,7 +9,7 @@
 #include "forces/terms/laws/inelastic.hpp"
 #include "forces/terms/laws/kelvin_voigt.hpp"
 #include "forces/terms/laws/oldroyd_b.hpp"
-#include "forces/terms/uniform.hpp"
+#include "forces/terms/gravity.hpp"
 #include "forces/terms/viscoelastic.hpp"
 #include "forces/terms/viscous_tension.hpp"
 #include "validation/support/prescribed.hpp"

@@ -1,0 +1,171 @@
+/// Evaporation: how fast a jet dries, where it ends, and that no mass is lost.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "forces/terms/evaporation.hpp"
+#include "validation/support/run.hpp"
+
+using namespace treejet;
+
+namespace {
+
+Parameters drying(EvaporationModel model, double polymer = 0.06) {
+  Parameters p = example("pvp");
+  p.evaporation = true;
+  p.evaporation_model = model;
+  p.polymer_fraction = polymer;
+  return p;
+}
+
+/// What is left of the volume of an element of length `cm` that flies at `speed` cm/s for some seconds,
+/// without forces.
+double left_after(const Parameters& p, double cm, double speed, double seconds, int steps) {
+  const Scales s = scales(p);
+  const Evaporation evaporation(p);
+  const Columns columns = {SolventColumn<1>(evaporation).column()};
+  const Nozzle<1> nozzle(p, columns);
+  EquationsOfMotion<1> f(nozzle, std::make_unique<DryingMaxwell<1>>(evaporation), {}, nullptr, Threads{1});
+  f.add_column(std::make_unique<SolventColumn<1>>(evaporation));
+  Jet<1> jet;
+  jet.y = State<1>(0, own_columns<1> + 1);
+  for (double x : {cm + 0.1, 0.1}) {
+    Bead<1> bead{Vec<1>(x / s.length), Vec<1>(speed / s.velocity)};
+    bead.added = {columns[0].at_birth};
+    append(jet, bead);
+  }
+  Parameters stepped = with_steps(p, Scheme::rk4, seconds / steps);
+  stepped.inserting = stepped.removing = false;
+  const Nozzle<1> end(stepped, columns);
+  const Collector collector(stepped);
+  Integration<1>(stepped, {jet, f, end, collector, undivided<1>, columns}).march.to(seconds / s.time);
+  return evaporation.remaining(jet.y(0, own_columns<1>));
+}
+
+double closed_answer(const Parameters& p, double cm, double speed, double seconds, double delta) {
+  const double D = p.vapour_diffusivity.value_or(water_diffusivity(p.temperature)),
+               nu = p.drying_air_viscosity;
+  const double u = std::hypot(speed, 1.0);  // air is never stiller than 1 cm/s
+  const double K = 0.495 * D * std::cbrt(2 * u / nu) * std::sqrt(nu / D) * delta;
+  const double a = p.nozzle_cross * std::sqrt(scales(p).l_step / cm);
+  // d(a^2)/dt = - K a^(1/3):  a^(5/3) falls linearly
+  const double a53 = std::pow(a, 5. / 3) - 5. / 6 * K * seconds;
+  return std::pow(a53, 6. / 5) / (a * a);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "The radius of an element that flies at one speed through dry air falls as a^(5/3) linearly in time") {
+  const Parameters p = drying(EvaporationModel::jetspin);
+  const double delta = vapour_pressure(SolventName::water, p.temperature) / 101325;
+  for (double seconds : {1e-5, 3.5e-5}) {
+    const double left = closed_answer(p, 3, 1500, seconds, delta);
+    REQUIRE(left > 0.1);
+    // classical Runge-Kutta with 400 steps of at most a hundredth of it
+    CHECK(left_after(p, 3, 1500, seconds, 400) == Approx(left).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("JETSPIN's law dries water some 1330 times faster than the vapour that air can hold lets it") {
+  Parameters water = drying(EvaporationModel::jetspin);
+  water.density_mass = 1;
+  const double jetspin = Evaporation(water).driving(0.94);
+  water.evaporation_model = EvaporationModel::vapour;
+  const Evaporation vapour(water);
+  // the activity of water over 6 % polymer, by Flory and Huggins
+  const double activity = 0.94 * std::exp(0.06 + 0.5 * 0.06 * 0.06);
+  CHECK(jetspin * activity / vapour.driving(0.94) == Approx(1335).epsilon(1e-3));
+}
+
+TEST_CASE("A jet dries until it is in balance with humid air, and never loses more than its solvent") {
+  Parameters p = drying(EvaporationModel::vapour);
+  p.humidity = 0.4;
+  const double c = 0.06 / left_after(p, 3, 1500, 5, 4000);
+  // at balance: to what is left of the approach after so long
+  CHECK((1 - c) * std::exp(c + 0.5 * c * c) == Approx(0.4).epsilon(1e-8));
+  p.humidity = 0;
+  const double left = left_after(p, 3, 1500, 20, 20000);
+  CHECK(left >= 0.06);
+  CHECK(left < 0.0601);
+  const Evaporation dry(drying(EvaporationModel::vapour));
+  CHECK(dry.driving(0) == 0);
+  CHECK(dry.driving(-1e-3) < 0);  // what a step overshoots comes back
+}
+
+TEST_CASE(
+    "JETSPIN's law stops at a concentration of 0.9, with the viscosity and modulus that its tests record") {
+  const Parameters p = drying(EvaporationModel::jetspin);
+  const Evaporation e(p);
+  CHECK(e.driving(0.06 / 0.9 - 0.06) == 0);
+  CHECK(e.driving(0.06 / 0.9 - 0.06 + 1e-9) > 0);
+  CHECK(e.viscosity_ratio(0.9) == Approx(43.9783350).epsilon(1e-8));
+  CHECK(e.relaxation_ratio(0.9) == Approx(15).epsilon(1e-12));
+  CHECK(e.viscosity_ratio(0.9) / e.relaxation_ratio(0.9) == Approx(2.93188900).epsilon(1e-8));
+  CHECK(water_diffusivity(293.15) == Approx(0.242001758).epsilon(1e-8));
+  CHECK(vapour_pressure(SolventName::water, 293.15) == Approx(2337).epsilon(1e-3));
+  // with a step that ends somewhere beyond: what it overshoots is part of that step
+  CHECK(left_after(p, 3, 1500, 1e-4, 20000) == Approx(0.06 / 0.9).epsilon(2e-3));
+}
+
+TEST_CASE("Vapour pressures at 25 degrees are those of tables") {
+  const double T = 298.15;
+  // kPa, CRC Handbook; DMF's equation is for 30 to 90 degrees
+  CHECK(vapour_pressure(SolventName::water, T) == Approx(3169).epsilon(2e-3));
+  CHECK(vapour_pressure(SolventName::ethanol, T) == Approx(7870).epsilon(0.01));
+  CHECK(vapour_pressure(SolventName::acetone, T) == Approx(30800).epsilon(0.02));
+  CHECK(vapour_pressure(SolventName::chloroform, T) == Approx(26200).epsilon(0.02));
+  CHECK(vapour_pressure(SolventName::dmf, T) == Approx(500).epsilon(0.1));
+}
+
+TEST_CASE("In air as humid as it can be nothing evaporates, to the bit") {
+  Parameters p = with_tolerance(drying(EvaporationModel::jetspin), 1e-5);
+  p.humidity = 1;
+  Run<3> humid(p);
+  p.evaporation = false;
+  Run<3> without(p);
+  humid.to(1e-3);
+  without.to(1e-3);
+  REQUIRE(humid.beads() == without.beads());
+  CHECK((humid.jet().y.leftCols(own_columns<3>) == without.jet().y).all());
+}
+
+TEST_CASE("What a drying jet has lost is what the rates of evaporation add up to") {
+  Parameters p = with_tolerance(drying(EvaporationModel::jetspin, 0.4), 1e-7);
+  Run<3> run(p);
+  const double interval = 5e-6 / run.unit.time;
+  Snapshots<3> snapshots(interval);
+  const double end = 1e-3;
+  run.to(end, {&snapshots});
+  // the evaporated mass so far is that of all beads let go less what is left of them
+  const Evaporation e(p);
+  const auto evaporated = [&](const Jet<3>& jet) {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < jet.size(); ++i) sum += 1 - e.remaining(jet.y(i, own_columns<3>));
+    return sum;
+  };
+  double integral = 0, before = 0;
+  for (std::size_t k = 0; k < snapshots.jets.size(); ++k) {
+    const Jet<3>& jet = snapshots.jets[k];
+    State<3> slope;
+    (*run.scene.motion)(jet, jet.t, jet.y, slope);
+    const double rate = -slope.col(own_columns<3>).sum();
+    if (k > 0) integral += interval * (before + rate) / 2;
+    before = rate;
+  }
+  CHECK(evaporated(run.jet()) > 0.1);
+  // trapezoids over 200 intervals, in one of 20 of which a bead is let go
+  CHECK(evaporated(run.jet()) == Approx(integral).epsilon(0.01));
+}
+
+TEST_CASE("A drying jet moves the same by the scheme that solves for its local terms") {
+  const auto x = [](Scheme scheme) {
+    Parameters p = with_tolerance(drying(EvaporationModel::jetspin, 0.3), 1e-7, scheme);
+    Run<3> run(p);
+    run.to(1e-3);
+    return run.x();
+  };
+  // beads whose solvent is gone have a kink there, which a step meets as its tolerance lets it
+  CHECK(x(Scheme::kencarp5) == Approx(x(Scheme::verner6)).epsilon(1e-3));
+}
