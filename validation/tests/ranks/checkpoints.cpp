@@ -81,7 +81,7 @@ Readers readers(const Ranks& ranks) {
 }
 
 Ended resume(const fs::path& directory, const Ranks& ranks, std::int64_t steps = 1'000'000'000) {
-  Resumption stopped = resumption(directory, program({}), readers(ranks));
+  Resumption stopped = resumption(directory, program({}), {}, readers(ranks));
   return run(stopped.deck, directory, ranks, steps, &stopped.checkpoint);
 }
 
@@ -181,7 +181,7 @@ TEST_CASE("A checkpoint of pieces with a damaged record is passed over by all ra
     std::ofstream(parts.path / "checkpoint", std::ios::binary) << bytes;
   }
   ranks.greatest(0);
-  const Resumption older = resumption(parts.path, program({}), readers(ranks));
+  const Resumption older = resumption(parts.path, program({}), {}, readers(ranks));
   CHECK(older.warnings.size() == 1);
   CHECK(older.checkpoint.file == parts.path / "checkpoint.old");
   CHECK(resume(parts.path, ranks).arrived);
