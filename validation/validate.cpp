@@ -15,6 +15,7 @@
 #include "validation/support/distributed_run.hpp"
 #include "validation/support/machine.hpp"
 #include "validation/support/scaling_run.hpp"
+#include "validation/support/shell.hpp"
 #include "validation/support/studies.hpp"
 
 namespace {
@@ -82,8 +83,9 @@ void write_provenance(const std::filesystem::path& directory, const std::string&
 /// Draws the pictures and writes the page.
 bool publish(const std::string& directory) {
   std::fflush(stdout);
-  return std::system(fmt::format("/usr/bin/python3 '{}/validation/pictures/report.py' '{}'",
-                                 TREEJET_SOURCE_DIR, directory)
+  return std::system(fmt::format("/usr/bin/python3 {} {}",
+                                 treejet::shell_word(TREEJET_SOURCE_DIR "/validation/pictures/report.py"),
+                                 treejet::shell_word(directory))
                          .c_str()) == 0;
 }
 

@@ -7,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/io/atomic_file.hpp"
 #include "validation/support/rank_layout.hpp"
+#include "validation/support/shell.hpp"
 #include "validation/support/studies.hpp"
 
 namespace treejet {
@@ -38,9 +39,10 @@ std::vector<RankLayout> teams(bool quick) {
 }
 
 void run(const Scene& scene, const RankLayout& layout, const fs::path& results) {
-  std::string arguments = fmt::format("run '{}/validation/decks/stream.dat' --quiet --force --out '{}'",
-                                      TREEJET_SOURCE_DIR, results.string());
-  for (const auto& d : scene.directives) arguments += fmt::format(" --set '{}'", d);
+  std::string arguments = fmt::format("run {} --quiet --force --out {}",
+                                      shell_word(TREEJET_SOURCE_DIR "/validation/decks/stream.dat"),
+                                      shell_word(results.string()));
+  for (const auto& d : scene.directives) arguments += " --set " + shell_word(d);
   const std::string line = launch_line(layout, /*pinned*/ false, TREEJET_PROGRAM, arguments) + " 2>/dev/null";
   if (std::system(line.c_str()) != 0) throw Error(1, "failed: " + line);
 }
