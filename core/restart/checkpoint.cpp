@@ -200,7 +200,7 @@ Checkpoints::Checkpoints(fs::path directory, OutputFile::Existing existing)
 }
 
 void Checkpoints::write(Checkpoint& checkpoint,
-                        const std::function<void(const WriteRecord&)>& give_records) const {
+                        const std::function<void(const WriteRecord&)>& give_records) const try {
   Archive archive;
   archive(checkpoint);
   const std::string payload = std::move(archive).bytes();
@@ -220,6 +220,10 @@ void Checkpoints::write(Checkpoint& checkpoint,
   if (fs::exists(directory_ / newest, error)) put_in_place(directory_ / newest, directory_ / older);
   put_in_place(directory_ / unfinished, directory_ / newest);
   force_to_disk(directory_);
+} catch (const FileError&) {
+  std::error_code error;
+  fs::remove(directory_ / unfinished, error);  // a full disk has better use for its room
+  throw;
 }
 
 void Checkpoints::remove() const {
