@@ -96,7 +96,8 @@ class History {
   /// the evaluations.
   int before_refinement(const Jet<D>& jet, const Refinement& refinement, EquationsOfMotion<D>& full);
 
-  void visit(Archive& state) { state(past_, remembered_); }
+  /// FileError if what is read cannot be of one jet.
+  void visit(Archive& state);
 
  private:
   std::array<PastEvaluation<D>, count> past_;  ///< newest first
