@@ -177,6 +177,8 @@ std::optional<Arguments> command_line(int argc, char** argv, const std::string& 
   run.callback([deck, resume] {
     if (deck->empty() && resume->empty()) throw CLI::RequiredError("DECK");
   });
+  run.add_flag("--estimate-error", a.estimate_error,
+               "run once more at a tenth of the tolerance: statdat.error.dat, errors of all rows and means");
   run.add_option_function<std::string>(
          "--walltime", [&a](const std::string& text) { a.walltime = wall_seconds(text); },
          "stop with a checkpoint before this much time has passed: seconds or hh:mm:ss")

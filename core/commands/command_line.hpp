@@ -18,6 +18,7 @@ struct Arguments {
   bool quiet = false, force = false;
   std::string resume;              ///< directory of the run to continue; empty: a new run
   std::optional<double> walltime;  ///< s
+  bool estimate_error = false;     ///< of the rows of statdat.dat, by a second run
 
   std::string file, format, converted;  ///< of convert and info
 

@@ -116,6 +116,15 @@ void RunRecord::end(const char* outcome) {
   write(path_, record);
 }
 
+void record_errors(const fs::path& directory, const std::string& against,
+                   const std::vector<ErrorOfObservable>& errors) {
+  Json record = read_record(directory / run_record_name), observables = Json::object();
+  for (const ErrorOfObservable& e : errors)
+    observables[e.label] = {{"row", e.of_a_row}, {"mean", e.mean}, {"of_mean", e.of_mean}};
+  record["error_estimate"] = {{"against", against}, {"observables", observables}};
+  write(directory / run_record_name, record);
+}
+
 bool has_completed(const fs::path& directory) try {
   const Json record = read_record(directory / run_record_name);
   return record.at("segments").back().at("outcome") == "completed";

@@ -50,6 +50,17 @@ class RunRecord {
   bool ended_ = false;
 };
 
+/// How far an observable is off: the greatest of a row, and that of its mean, in its own unit.
+struct ErrorOfObservable {
+  std::string label;  ///< "x[cm]"
+  double of_a_row, mean, of_mean;
+};
+
+/// Adds "error_estimate": {"against", "observables": {"x[cm]": {"row", "mean", "of_mean"}, ...}} to the
+/// record of a run that is over.
+void record_errors(const std::filesystem::path& directory, const std::string& against,
+                   const std::vector<ErrorOfObservable>& errors);
+
 /// Whether the last segment of the run in a directory has come to its end; false without a sound record.
 bool has_completed(const std::filesystem::path& directory);
 

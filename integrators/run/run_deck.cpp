@@ -7,13 +7,16 @@
 #include <filesystem>
 
 #include "core/base/error.hpp"
+#include "core/base/output_file.hpp"
 #include "core/deck/deck.hpp"
+#include "core/io/atomic_file.hpp"
 #include "core/io/directory_lock.hpp"
 #include "core/io/provenance.hpp"
 #include "core/io/run_record.hpp"
 #include "core/restart/resume.hpp"
 #include "forces/coulomb/coulomb.hpp"
 #include "forces/scene/scene_description.hpp"
+#include "integrators/run/error_estimate.hpp"
 #include "integrators/run/simulation.hpp"
 
 namespace treejet {
@@ -48,6 +51,35 @@ class StopVote {
   StopSignals signals_;
 };
 
+/// Before anything is made: an old table is not to be replaced unasked.
+void expect_estimate_possible(const Parameters& p, const Arguments& a, const std::filesystem::path& table) {
+  expect_estimable(p);
+  std::error_code error;
+  if (!a.force && std::filesystem::exists(std::filesystem::symlink_status(table, error)))
+    throw exists_already(table);
+}
+
+/// Runs the deck once more, finer, and writes how far the rows of the run in the directory are from that.
+template <int D>
+void estimate_error(const Parameters& p, const Arguments& a, const std::filesystem::path& directory,
+                    Scene<D> scene, const OwnObservables<D>& own, const Ranks& ranks,
+                    const std::function<bool()>& stop_here) {
+  const std::string against = finer_description(p);
+  if (!a.quiet) fmt::print("\nonce more, as {}\n", against);
+  std::fflush(stdout);
+  const auto second = rows_of_run<D>(finer(p), scene, own, stop_here);
+  if (!ranks.first()) return;
+  if (!second) {
+    fmt::print(stderr, "treejet: the run is complete, its error is not estimated: stopped\n");
+    return;
+  }
+  const TableOfRows first = read_rows(directory / "statdat.dat"), apart = difference(first, *second);
+  const auto all = errors(first, apart);
+  write_whole(directory / error_table_name, rows_text(apart, against));
+  record_errors(directory, against, all);
+  if (!a.quiet) fmt::print("{}{}\n", errors_text(all, against), (directory / error_table_name).string());
+}
+
 template <int D>
 int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysics& own,
         Checkpoint* checkpoint) {
@@ -57,6 +89,8 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysi
   const Threads each = threads(a, ranks);
   const std::string directory = checkpoint ? a.resume : a.out;
   StopVote stop(p, a, ranks);
+  const std::filesystem::path error_table = std::filesystem::path(directory) / error_table_name;
+  if (a.estimate_error) expect_estimate_possible(p, a, error_table);
   Scene<D> scene = compose<D>(p, each, ranks, own_terms<D>(own, p));
   const OutputSetting outputs{directory,          existing(a), a.quiet,
                               !ranks.first(),     made_by,     {ranks.size(), each.count},
@@ -69,6 +103,10 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysi
     fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p),
                workers_description(ranks, each));
   }
+  if (a.force && ranks.first()) {  // it would stand beside rows that it does not belong to
+    std::error_code error;
+    std::filesystem::remove(error_table, error);
+  }
   const auto started = std::chrono::steady_clock::now();
   if (!simulation.finish()) {
     ranks.greatest(stopped_early);  // no rank ends before the first one has written the checkpoint
@@ -79,6 +117,11 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysi
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!a.quiet) fmt::print("\n{}{}", simulation.summary(), times_description(ranks.times(), seconds));
+  if (a.estimate_error) {
+    const Parameters second = finer(p);
+    estimate_error<D>(p, a, directory, compose<D>(second, each, ranks, own_terms<D>(own, second)),
+                      own_observables<D>(own), ranks, [&stop] { return stop() == StopRequest::stop; });
+  }
   return 0;
 }
 

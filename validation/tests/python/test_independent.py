@@ -1,6 +1,9 @@
 """The tables that the C++ is compared with are those of the independent program beside them."""
 
 import importlib.util
+import json
+import os
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -37,3 +40,24 @@ def test_a_run_of_the_independent_program_gives_the_table(independent):
     assert jet.number == list(table[:, 1])
     # another version of SciPy may round otherwise: its tolerance, 1e-11 a step, over a thousand steps
     assert abs(jet.r - table[:, 3:6]).max() < 1e-8
+
+
+def test_the_error_that_a_second_run_tells_is_the_error_of_the_first(tmp_path):
+    settings = ["tolerance 1e-6", "final time 0.02", "print time 0.005", "printstat list t x y z vx vy vz cpu"]
+    command = [os.environ["TREEJET"], "run", DECKS["case3"], "--out", tmp_path, "--estimate-error", "--quiet"]
+    subprocess.run(command + [word for s in settings for word in ("--set", s)], check=True)
+    found, told = (np.loadtxt(tmp_path / name) for name in ("statdat.dat", "statdat.error.dat"))
+    assert told.shape[1] == found.shape[1] - 1  # without the wall clock
+    table = np.loadtxt(VALIDATION / "reference/independent-case3.csv", delimiter=",", skiprows=2)
+    for t in (0.005, 0.01, 0.02):
+        oldest = table[table[:, 0] == t][0, 3:9]
+        row = int(np.argmin(abs(found[:, 0] - t)))
+        error, estimate = found[row, 1:7] - oldest, told[row, 1:7]
+        # what is left is the error of the second run, by the tolerances a tenth
+        assert abs(error - estimate)[:3].max() < 0.1 * abs(error)[:3].max()
+        assert abs(error - estimate)[3:].max() < 0.1 * abs(error)[3:].max()
+    recorded = json.loads((tmp_path / "run.json").read_text())["error_estimate"]
+    assert recorded["observables"]["x[cm]"]["row"] == abs(told[:, 1]).max()
+    half = told[len(told) // 2 :, 1]
+    assert recorded["observables"]["x[cm]"]["of_mean"] == pytest.approx(abs(half.mean()), rel=1e-12)
+    assert subprocess.run(command, capture_output=True).returncode == 4  # what is there stays
