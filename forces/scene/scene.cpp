@@ -118,7 +118,8 @@ class Composer {
     add(
         p_.self_field == SelfField::slender && g_.Q != 0,
         g_.Q == 0 ? "density charge is 0" : "self field point",
-        [&] { return std::make_unique<SlenderSelfField<D>>(g_.Q, section()); }, "slender self-field");
+        [&] { return std::make_unique<SlenderSelfField<D>>(g_.Q, section(), p_.refinement); },
+        "slender self-field");
     add_air();
     add_noise();
     for (auto& force : own.forces) {
@@ -174,10 +175,12 @@ class Composer {
         : properties(chosen_scheme(p_)).implicit ? "a scheme that solves for the local terms"
         : g_.Q == 0                              ? "no Coulomb sum"
         : in_pieces()                            ? "parallel distributed"
-        : !smooth_stress_                        ? "the stress law has a kink or all but a jump"
-        : stiffness(p_).relaxes_between_beads()  ? "stress or drag relaxes within the interval of beads"
-        : !hasty.empty()                         ? hasty.c_str()
-                                                 : nullptr;
+        : p_.refinement && p_.self_field == SelfField::slender
+            ? "where unequal elements meet the self-field of several makes one force"
+        : !smooth_stress_                       ? "the stress law has a kink or all but a jump"
+        : stiffness(p_).relaxes_between_beads() ? "stress or drag relaxes within the interval of beads"
+        : !hasty.empty()                        ? hasty.c_str()
+                                                : nullptr;
     note(!why_not, "two rates", "multirate auto", why_not);
     return !why_not;
   }
@@ -310,8 +313,8 @@ Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks, OwnTe
                                                         std::move(coulomb), threads);
   for (auto& rate : column_rates) scene.motion->add_column(std::move(rate));
   if (composer.multirate())
-    scene.multirate =
-        std::make_unique<MultirateMotion<D>>(*scene.motion, ErrorNorm(p, columns), ShortWaves(p), p.refinement);
+    scene.multirate = std::make_unique<MultirateMotion<D>>(*scene.motion, ErrorNorm(p, columns),
+                                                           ShortWaves(p), p.refinement);
   if constexpr (D == 3)
     if (composer.in_pieces()) {
       const auto jet_of = [&](const std::vector<int>& rows) { return initial_jet<3>(p, rows, columns); };

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/base/simd_clones.hpp"
+#include "forces/terms/joints.hpp"
 #include "forces/terms/wide_logarithm.hpp"
 
 namespace treejet {
@@ -34,6 +35,13 @@ double tension_factor(const Logarithm& g) {
 }
 double stiffness_factor(const Logarithm& g) {
   return 2 * g.value - 4.5 * g.slope + 2.25 * sharpness * g.slope * (1 - g.slope);
+}
+
+/// That of the joints; the youngest element, which grows, counts like the one below it.
+Eigen::ArrayXd joints_between(Eigen::ArrayXd volume) {
+  const Eigen::Index n = volume.size();
+  if (n > 1) volume[n - 1] = volume[n - 2];
+  return tension_of_joints(volume);
 }
 
 /// The arrays of a chain that the tension of an element is made of, from one element on.
@@ -83,6 +91,14 @@ double SlenderSelfField<D>::charges(const Chain<D>& c, int i) const {
 }
 
 template <int D>
+void SlenderSelfField<D>::prepare(const Chain<D>& c, Rows, Threads) {
+  const int settled = c.beads - 1;  // elements whose volume has stopped to grow
+  if (!uneven_ || (joints_.size() == c.beads && (volume_ == c.volume.head(settled)).all())) return;
+  volume_ = c.volume.head(settled);
+  joints_ = joints_between(c.volume);
+}
+
+template <int D>
 void SlenderSelfField<D>::add(const Chain<D>& c, Rows rows, Acceleration<D>& a) const {
   constexpr int at_once = 32;  // the limiter is at work near the nozzle only
   const double far = length_where_limiter_is_gone(section_);
@@ -103,6 +119,11 @@ void SlenderSelfField<D>::add(const Chain<D>& c, Rows rows, Acceleration<D>& a) 
     const bool youngest = last == c.beads;
     if (close) set_tensions<true>(elements, count - youngest, to);
     if (!close) set_tensions<false>(elements, count - youngest, to);
+    if (uneven_)
+      for (int k = 0; k < count - youngest; ++k) {
+        const double inverse = c.inverse_length[element + k];
+        to[k] += charges(c, element + k) * inverse * inverse * joints_[element + k];
+      }
     if (youngest) to[count - 1] = tension_of_youngest(c);
     const auto t = columns<D>(c.tangent);
     const int between = std::max(first, 1);
@@ -115,9 +136,10 @@ void SlenderSelfField<D>::add(const Chain<D>& c, Rows rows, Acceleration<D>& a) 
 template <int D>
 double SlenderSelfField<D>::tension_of_youngest(const Chain<D>& c) const {
   const int i = c.beads - 1;
+  const double joint = uneven_ ? joints_[i] : 0;
   const auto tension = [&](double inverse) {
     const double squared_radius = section_.squared_radius(c.volume[i] * inverse);
-    return inverse * inverse * tension_factor(limited(plain_g(inverse, squared_radius)));
+    return inverse * inverse * (tension_factor(limited(plain_g(inverse, squared_radius))) + joint);
   };
   const double d = 1 / c.inverse_length[i], whole = tension(c.inverse_length[i]);
   if (c.points() == c.beads + 1) return charges(c, i) * whole;
@@ -134,7 +156,8 @@ void SlenderSelfField<D>::differentiate(const Chain<D>& c, LocalJacobian<D>& J) 
   };
   const auto answer = [&](int i, double inverse) {
     const Logarithm g = limited(plain_g(inverse, section_.squared_radius(c.volume[i] * inverse)));
-    return Answer{inverse * inverse * tension_factor(g), inverse * inverse * inverse * stiffness_factor(g)};
+    const double joint = uneven_ ? joints_[i] : 0, square = inverse * inverse;
+    return Answer{square * (tension_factor(g) + joint), square * inverse * (stiffness_factor(g) - 2 * joint)};
   };
   for (int i = 0; i < c.beads; ++i) {
     const double inverse = c.inverse_length[i], d = 1 / inverse;
@@ -158,10 +181,12 @@ void SlenderSelfField<D>::differentiate(const Chain<D>& c, LocalJacobian<D>& J) 
 template <int D>
 double SlenderSelfField<D>::energy(const Chain<D>& c) const {
   double sum = 0;
+  const Eigen::ArrayXd joints =
+      uneven_ ? joints_between(c.volume) : Eigen::ArrayXd(Eigen::ArrayXd::Zero(c.beads));
   for (int i = 0; i < c.beads; ++i) {
     const double inverse = c.inverse_length[i];
     const double squared_radius = section_.squared_radius(c.volume[i] * inverse);
-    sum += charges(c, i) * inverse * limited(plain_g(inverse, squared_radius)).value;
+    sum += charges(c, i) * inverse * (limited(plain_g(inverse, squared_radius)).value - joints[i]);
   }
   return sum;
 }

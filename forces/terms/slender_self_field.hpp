@@ -19,11 +19,15 @@
 ///   - While a bead is held with charge s, the youngest element, of length d, has (1 - s) T(d) + s T(d -
 ///   l_step).
 ///
-/// Errors: O(a^2 / R^2) at distance R; second order in smooth spacings. Where the spacing jumps, three beads
-/// there get forces of order lambda^2 whose sum is 0. A form exact at any l/a on a straight line softens the
-/// repulsion of some eight neighbours by a and has a g that is greater by 0.6 (a / l)^2; it is not taken, for
-/// neither the stiff scheme nor a chain in pieces could treat it as local. Scaled. Sources: slender-body
-/// theory; the electric pressure as in Hohman, Shin, Rutledge and Brenner, Phys. Fluids 13 (2001) 2201.
+///   - Where elements of unequal volume meet, which refinement brings about: g is less, and the 3/2 - g of
+///   the
+///     tension more, by c_e of joints.hpp.
+///
+/// Errors: O(a^2 / R^2) at distance R; second order in smooth spacings. A form exact at any l/a on a straight
+/// line softens the repulsion of some eight neighbours by a and has a g that is greater by 0.6 (a / l)^2; it
+/// is not taken, for neither the stiff scheme nor a chain in pieces could treat it as local. Scaled. Sources:
+/// slender-body theory; the electric pressure as in Hohman, Shin, Rutledge and Brenner, Phys. Fluids 13
+/// (2001) 2201.
 
 #include "forces/terms/section.hpp"
 #include "forces/terms/term.hpp"
@@ -33,9 +37,12 @@ namespace treejet {
 template <int D>
 class SlenderSelfField final : public ForceTerm<D> {
  public:
-  /// Q: the Coulomb term's group.
-  SlenderSelfField(double Q, Section section) : Q_(Q), section_(section) {}
+  /// Q: the Coulomb term's group. `uneven`: elements of unequal volume may meet; then the chain must be
+  /// whole.
+  SlenderSelfField(double Q, Section section, bool uneven = false)
+      : Q_(Q), section_(section), uneven_(uneven) {}
   std::string_view name() const override { return "slender self-field"; }
+  void prepare(const Chain<D>& c, Rows rows, Threads threads) override;
   void add(const Chain<D>& c, Rows rows, Acceleration<D>& a) const override;
   void differentiate(const Chain<D>& c, LocalJacobian<D>& J) const override;
 
@@ -48,6 +55,8 @@ class SlenderSelfField final : public ForceTerm<D> {
 
   double Q_;
   Section section_;
+  bool uneven_;
+  Eigen::ArrayXd volume_, joints_;  ///< of the elements but the youngest; of all, what follows from it
 };
 
 }  // namespace treejet

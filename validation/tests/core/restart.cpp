@@ -111,6 +111,9 @@ std::vector<Case> cases() {
           output_often("pvp", 3e-3,
                        {"collector distance 3.", "perturb ampl 1.d-2", "self field slender",
                         "dynamic refinement yes", "dynamic refinement tolerance 1.d-2"}),
+          output_often("pvp", 3e-3,
+                       {"collector distance 3.", "dynamic refinement yes", "dynamic refinement every 2.d-4",
+                        "dynamic refinement threshold 0.05"}),
           output_often("pvp", 4e-6, fixed_tree),
           output_often("pvp", 2e-4, two_rate_tree)};
 }

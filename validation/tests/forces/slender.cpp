@@ -180,6 +180,7 @@ TEST_CASE("Self-field and surface tension follow from their energies, from a thi
     CHECK(off_energy<3>(SlenderSelfField<3>(2, Section{a, 1}), crooked<3>(12, 1)) < central);
     CHECK(off_energy<3>(SurfaceEnergy<3>(0.7, Section{a, 1}), crooked<3>(12, 1)) < central);
     CHECK(off_energy<1>(SlenderSelfField<1>(2, Section{a, 1}), crooked<1>(12, 1)) < central);
+    CHECK(off_energy<3>(SlenderSelfField<3>(2, Section{a, 1}, /*uneven*/ true), crooked<3>(12, 1)) < central);
     CHECK(off_energy<1>(SurfaceEnergy<1>(0.7, Section{a, 1}), crooked<1>(12, 1)) < central);
   }
 }
@@ -215,6 +216,9 @@ TEST_CASE("The derivative of self-field and surface tension is exact, limiter an
       auto f = equations<3>(p, SlenderSelfField<3>(2, Section{a, 1}), SurfaceEnergy<3>(0.7, Section{a, 1}));
       // differences: step^2 of 1e-12 and round-off of 1e-16 over the step
       CHECK(off_derivative<3>(f, jet) < 1e-7);
+      auto uneven = equations<3>(p, SlenderSelfField<3>(2, Section{a, 1}, /*uneven*/ true));
+      slope(uneven, jet);
+      CHECK(off_derivative<3>(uneven, jet) < 1e-7);
       auto straight = crooked<1>(8, 1);
       straight.y.col(0) += 0.75;
       straight.held = held;
