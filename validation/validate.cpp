@@ -17,6 +17,7 @@
 #include "validation/support/installation.hpp"
 #include "validation/support/machine.hpp"
 #include "validation/support/scaling_run.hpp"
+#include "validation/support/shell.hpp"
 #include "validation/support/studies.hpp"
 
 namespace {
@@ -84,8 +85,9 @@ void write_provenance(const std::filesystem::path& directory, const std::string&
 /// Draws the pictures and writes the page.
 bool publish(const std::string& directory) {
   std::fflush(stdout);
-  return std::system(fmt::format("/usr/bin/python3 '{}/validation/pictures/report.py' '{}'",
-                                 treejet::source_tree(), directory)
+  return std::system(fmt::format("/usr/bin/python3 {} {}",
+                                 treejet::shell_word(treejet::source_tree() + "/validation/pictures/report.py"),
+                                 treejet::shell_word(directory))
                          .c_str()) == 0;
 }
 

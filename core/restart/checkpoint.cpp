@@ -212,7 +212,7 @@ void Checkpoints::write(Checkpoint& checkpoint,
 }
 
 void Checkpoints::write(Checkpoint& checkpoint, const std::function<void(const WriteRecord&)>& give_records,
-                        const char* name) const {
+                        const char* name) const try {
   Archive archive;
   archive(checkpoint);
   const std::string payload = std::move(archive).bytes();
@@ -233,6 +233,10 @@ void Checkpoints::write(Checkpoint& checkpoint, const std::function<void(const W
     put_in_place(directory_ / newest, directory_ / older);
   put_in_place(directory_ / unfinished, directory_ / name);
   force_to_disk(directory_);
+} catch (const FileError&) {
+  std::error_code error;
+  fs::remove(directory_ / unfinished, error);  // a full disk has better use for its room
+  throw;
 }
 
 void Checkpoints::conclude(Checkpoint* state) const {

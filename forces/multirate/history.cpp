@@ -94,6 +94,20 @@ std::array<const double*, History<D>::count> History<D>::slopes(int column, int 
 }
 
 template <int D>
+void History<D>::visit(Archive& state) {
+  state(past_, remembered_);
+  if (!state.reading()) return;
+  const Eigen::Index n = beads(), far = continuable(n) ? n + 1 : 0;
+  const auto alike = [&](const PastEvaluation<D>& m) {
+    return m.slope.rows() == n && m.slope.cols() == columns() && m.field.rows() == n &&
+           m.point.rows() == n + 1 && m.point_charge.size() == n + 1 && m.far.rows() >= far;
+  };
+  if (remembered_ < 0 || remembered_ > count ||
+      !std::all_of(past_.begin(), past_.begin() + remembered_, alike))
+    throw FileError("the checkpoint remembers evaluations that are not of one jet");
+}
+
+template <int D>
 bool History<D>::remember(PastEvaluation<D>&& now) {
   const bool continued = continuable(now.field.rows());  // then all have their far field, `now` as well
   // values too close in time would make the parabola amplify their own errors

@@ -98,7 +98,8 @@ class History {
   /// the evaluations.
   int before_refinement(const Jet<D>& jet, const Refinement& refinement, FullMotion<D>& full);
 
-  void visit(Archive& state) { state(past_, remembered_); }
+  /// FileError if what is read cannot be of one jet.
+  void visit(Archive& state);
 
   /// What is remembered of the beads of some rows, a row each, and of all rows anew; and what is no bead's.
   Eigen::ArrayXXd of_beads(Eigen::Index first, Eigen::Index rows) const;

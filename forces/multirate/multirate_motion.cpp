@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/error.hpp"
 #include "core/base/weighted_sum.hpp"
 #include "forces/multirate/field_of_charge.hpp"
 
@@ -38,8 +39,10 @@ void MultirateMotion<D>::operator()(const Jet<D>& jet, double t, const State<D>&
     ++full_evaluations_;
   } else if (&jet == &fast_region_.jet) {
     continued_ends(jet, t, y, slope);
-  } else {
+  } else if (y.rows() == history_.beads()) {
     continued(jet, t, y, slope);
+  } else {
+    throw FileError("the checkpoint remembers evaluations of another jet");
   }
 }
 

@@ -2,7 +2,7 @@
 /// The equations of motion at two rates: beads near the two ends of the jet are fast, the others slow.
 ///
 /// Over a few steps the field of far beads and the whole slope of slow beads change smoothly, so both are
-/// continued in time by the parabola through their last three full evaluations (moments.hpp). Computed are
+/// continued in time by the parabola through their last three full evaluations (history.hpp). Computed are
 ///
 ///   - of a fast bead: its local terms and the field of the points near to its end of the chain; the
 ///     continued field of the rest is added;

@@ -1,4 +1,5 @@
 #include "validation/support/rank_layout.hpp"
+#include "validation/support/shell.hpp"
 
 #include <fmt/format.h>
 
@@ -33,8 +34,8 @@ std::string environment(const RankLayout& layout, bool pinned) {
 std::string launch_line(const RankLayout& layout, bool pinned, const std::string& program,
                         const std::string& arguments) {
   std::string line = environment(layout, pinned);
-  if (layout.ranks > 1) line += fmt::format("'{}' -n {} ", mpi_launcher(), layout.ranks);
-  return line + fmt::format("'{}' {}", program, arguments);
+  if (layout.ranks > 1) line += fmt::format("{} -n {} ", shell_word(mpi_launcher()), layout.ranks);
+  return line + fmt::format("{} {}", shell_word(program), arguments);
 }
 
 std::string output(const RankLayout& layout, int cores, const std::string& arguments) {

@@ -1,4 +1,4 @@
-// The wide kernels for AVX2 with FMA, compiled for it alone: see wide_kernels.hpp before adding an include.
+// The wide kernels for AVX2 with FMA, compiled for it alone: see kernels.hpp before adding an include.
 #include <immintrin.h>
 
 #include "forces/coulomb/simd/expansions.hpp"
@@ -14,7 +14,7 @@ struct Avx2 {
   using Pack = Wide<double, lanes>;
 
   /// q d2^(-3/2) from a float start of 12 bits and the series of (1 - e)^(-3/2) to e^4, as in
-  /// wide_avx512.cpp. A d2 outside the range of float gives a start of 0 or infinity: such rare pairs are
+  /// avx512.cpp. A d2 outside the range of float gives a start of 0 or infinity: such rare pairs are
   /// divided out instead.
   static Pack over_cube(double q, Pack d2) {
     const __m128 start = _mm_rsqrt_ps(_mm256_cvtpd_ps(d2));

@@ -1,4 +1,4 @@
-// The wide kernels for AVX-512 (F, DQ, VL), compiled for it alone: see wide_kernels.hpp before adding an
+// The wide kernels for AVX-512 (F, DQ, VL), compiled for it alone: see kernels.hpp before adding an
 // include.
 #include <immintrin.h>
 

@@ -1,4 +1,4 @@
-// The paths of x86-64 processors; CMake takes vector_path_any.cpp elsewhere.
+// The paths of x86-64 processors; CMake takes isa_any.cpp elsewhere.
 #include "forces/coulomb/simd/kernels.hpp"
 
 namespace treejet {

@@ -1,7 +1,7 @@
 #pragma once
 /// The inner loops that exist once per instruction set, as a table of functions.
 ///
-/// Each path is one translation unit (wide_plain.cpp, wide_avx2.cpp, wide_avx512.cpp) compiled for its
+/// Each path is one translation unit (plain.cpp, avx2.cpp, avx512.cpp) compiled for its
 /// instruction set. Such a unit must not emit any function another unit could be linked to, or a narrow
 /// machine would meet wide code: hence plain pointers in these signatures, and everything behind the table
 /// has internal linkage.
@@ -26,14 +26,14 @@ struct WideKernels {
   using Near = void (*)(const CellPoints& target, const CellRange* source, int count, double* const* field);
   Near p2p, p2p_with_potential;
 
-  /// The same in single precision (single_kernel.hpp).
+  /// The same in single precision (p2p_single.hpp).
   void (*p2p_single)(const CellPoints& target, const CellRange* source, int count, const NearUnits& unit,
                      double* const* field);
 
   /// The largest distance of points from a centre.
   double (*reach)(const CellPoints&, const double* centre);
 
-  /// The operators of multipole.hpp on cells (expansion_kernel.hpp).
+  /// The operators of multipole.hpp on cells (expansions.hpp).
   void (*p2m)(const Expansions&, int cell, const CellPoints&);
   void (*m2m)(const Expansions&, CellRange parents, CellRange children);
   void (*m2l)(const Expansions&, int target, const int* source, int count);

@@ -1,6 +1,6 @@
 #pragma once
 /// The moments and local series of all cells in memory, as the wide kernels see them: plain pointers, no
-/// functions (see wide_kernels.hpp).
+/// functions (see kernels.hpp).
 ///
 /// Cell k has its centre at (centre[0][k], centre[1][k], centre[2][k]), its moments (degree order-1) at
 /// moments + k moment_stride and its local series (degree order) at locals + k local_stride, both packed as

@@ -9,7 +9,7 @@
 /// group, and start at multiples of that number counted from row 0, also when `rows` starts elsewhere, so the
 /// bits of a row do not depend on who asks for it. Only the block's own points can be the target itself; the
 /// pair (i, i) is masked there, by index: distinct points at one place give 0 * infinity, hence a field that
-/// is not finite. `Isa` brings q d2^(-3/2) (wide_*.cpp).
+/// is not finite. `Isa` brings q d2^(-3/2) (plain.cpp, avx2.cpp, avx512.cpp).
 
 #include "forces/coulomb/simd/few_points.hpp"
 #include "forces/coulomb/simd/layout.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 /// A register of W numbers, in the compiler's vector extensions: + - * / and comparisons work lane by lane, a
-/// scalar operand is broadcast. Included only by the units of wide_kernels.hpp; no function here may have
+/// scalar operand is broadcast. Included only by the units of kernels.hpp; no function here may have
 /// external linkage (the anonymous namespace sees to it), so nothing of the standard library is called but
 /// builtins.
 

@@ -10,7 +10,7 @@
 ///    Openings are tried from wide to narrow in steps of 7 %: the error is a staircase of them, since whole
 ///    shells of leaves change from far to near.
 ///
-/// Prices are in units of one direct pair of the same vector path, so they depend little on the machine's
+/// Prices are in units of one direct pair of the same instruction set, so they depend little on the machine's
 /// clock. In subdomains the price is that of the rank with the most, and fewer candidates are looked at.
 
 #include <limits>

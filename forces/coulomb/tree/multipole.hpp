@@ -1,7 +1,7 @@
 #pragma once
 // clang-format off
 /// The mathematics of the fast Coulomb sum, written plainly. Knows no tree; the fast kernels
-/// (expansion_kernel.hpp) are the same formulas on eight nodes at a time and are tested against these.
+/// (simd/expansions.hpp) are the same formulas on eight nodes at a time and are tested against these.
 ///
 /// A harmonic function needs no second derivative in z, because d2/dz2 = -d2/dx2 - d2/dy2. So every series
 /// here runs over multi-indices a = (i, j, c) with c = 0 or 1 only: 2n+1 of them per degree n = i+j+c, as

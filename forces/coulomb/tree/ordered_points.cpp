@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/error.hpp"
+
 namespace treejet {
 
 void OrderedPoints::read(const PointCharges<3>& points, Threads threads) {
@@ -20,6 +22,16 @@ void OrderedPoints::read(const PointCharges<3>& points, Threads threads) {
   charge_unit_ = 0;
   for (double q : q_) charge_unit_ = std::max(charge_unit_, std::abs(q));
   if (!(charge_unit_ > 0)) charge_unit_ = 1;
+}
+
+void OrderedPoints::visit(Archive& state) {
+  state(order_);
+  std::vector<bool> seen(order_.size());
+  for (const int i : order_) {
+    if (i < 0 || index(i) >= seen.size() || seen[index(i)])
+      throw FileError("the checkpoint's tree has points in no order");
+    seen[index(i)] = true;
+  }
 }
 
 void OrderedPoints::give(Rows points, Rows rows, const FieldArrays<3>& field, double* potential) const {

@@ -24,6 +24,8 @@ class OrderedPoints {
   /// A new order; empty: that of the caller.
   void reorder(std::vector<int> order) { order_ = std::move(order); }
   bool in_callers_order() const { return order_.empty(); }
+  /// Points that the order is of.
+  int ordered() const { return static_cast<int>(order_.size()); }
 
   /// Takes in points, as many as the order has; those grafted before go.
   void read(const PointCharges<3>& points, Threads threads);
@@ -37,8 +39,8 @@ class OrderedPoints {
     return static_cast<std::int64_t>(numbers * sizeof(double) + order_.capacity() * sizeof(int));
   }
 
-  /// The order.
-  void visit(Archive& state) { state(order_); }
+  /// The order; FileError if it leaves out a point or has one twice.
+  void visit(Archive& state);
 
   /// Where point k of this order stands in the caller's arrays.
   int source(int k) const { return order_.empty() ? k : order_[static_cast<std::size_t>(k)]; }

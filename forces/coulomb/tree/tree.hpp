@@ -2,6 +2,7 @@
 /// What a rank holds of a tree: cells, points in the order of the leaves, expansions of the cells. Behind the
 /// own cells and points stand those grafted from other ranks (essential_tree.hpp), if there are subdomains.
 
+#include "core/base/archive.hpp"
 #include "forces/coulomb/simd/kernels.hpp"
 #include "forces/coulomb/tree/cells.hpp"
 #include "forces/coulomb/tree/multipole.hpp"
@@ -18,6 +19,9 @@ struct TreeShape {
   bool single = false;   ///< near field in single precision
   bool local = true;     ///< local expansions; false: Barnes-Hut
   bool even = true;      ///< all cells err alike (cells.hpp); false, and Barnes-Hut: the opening as it is
+
+  /// FileError for one that no tree has.
+  void visit(Archive& state);
 };
 
 struct Tree {

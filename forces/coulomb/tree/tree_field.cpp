@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/base/error.hpp"
+#include "core/base/tree_parameters.hpp"
 #include "forces/coulomb/tree/barnes_hut.hpp"
 #include "forces/coulomb/tree/space_order.hpp"
 #include "forces/coulomb/tree/traversal.hpp"
@@ -47,10 +49,22 @@ void TreeField::place(const PointCharges<3>& points, const TreeShape& shape, Thr
   equalise_errors(threads);
 }
 
+void TreeShape::visit(Archive& state) {
+  int flags = single | local << 1 | even << 2;  // bools of other values would be undefined
+  state(order, opening, leaf, block, flags);
+  single = flags & 1, local = flags & 2, even = flags & 4;
+  const bool known_block = block == 0 || block == 1 || block == 4 || block == 16;
+  // an opening is tried one step wider than it is
+  if (!tree_parameters::is_order(order) || !(opening >= 0 && opening < 1) ||
+      !tree_parameters::is_leaf(leaf) || !known_block)
+    throw FileError("the checkpoint's tree has a shape that no tree has");
+}
+
 void TreeField::visit(Archive& state) {
-  int points = tree_.cells.points(), leaf = tree_.cells.leaf();
-  state(points, leaf, shape_, tree_.points);
-  if (state.reading() && points > 0) tree_.cells = Cells(points, leaf);
+  state(shape_, tree_.points);
+  // without an order of its own there is nothing to keep
+  if (state.reading() && !tree_.points.in_callers_order())
+    tree_.cells = Cells(tree_.points.ordered(), shape_.leaf);
 }
 
 void TreeField::reshape(int order, double opening, Threads threads) {

@@ -348,6 +348,39 @@ TEST_CASE("What cannot be promised is summed directly, and said") {
   CHECK(small.report().direct);
 }
 
+TEST_CASE("A tree read back goes on as it was; one of no order or of no shape is refused") {
+  const PointSet set = random_cloud(500);
+  TreeField tree;
+  tree.arrange(set.view(), {.order = 4, .opening = 0.5, .leaf = 16, .block = 1}, {1});
+  Archive archive;
+  archive(tree);
+  const std::string bytes = std::move(archive).bytes();
+  const auto read = [](const std::string& from) {
+    TreeField other;
+    Archive reading(from);
+    reading(other);
+    reading.expect_end();
+    return other;
+  };
+  // moved a little, the points would be sorted otherwise
+  PointSet moved = set;
+  for (std::size_t i = 0; i < 500; ++i) moved.r[i % 3][i] *= 1.01;
+  FieldSet field(500), expected(500);
+  TreeField other = read(bytes);
+  for (const auto& [from, to] : {std::pair{&other, &field}, std::pair{&tree, &expected}}) {
+    from->arrange(moved.view(), tree.shape(), {1}, /*keep_order*/ true);
+    from->evaluate(from->leaves_of({0, 500}), {0, 500}, to->view(), {1});
+  }
+  CHECK(field.e[0] == expected.e[0]);
+
+  std::string twice = bytes;  // the order stands last
+  twice.replace(twice.size() - sizeof(int), sizeof(int), twice, twice.size() - 2 * sizeof(int), sizeof(int));
+  CHECK_THROWS_AS(read(twice), FileError);
+  std::string of_no_order = bytes;  // behind its size
+  of_no_order[sizeof(std::size_t)] = 100;
+  CHECK_THROWS_AS(read(of_no_order), FileError);
+}
+
 TEST_CASE("Pinned values are kept, and values out of range refused") {
   CoulombRequest request = tree_of_accuracy(1e-4);
   request.order = 5;
