@@ -329,8 +329,6 @@ class Relations {
           "expected coulomb tree or coulomb auto: a direct sum needs all beads on every rank");
     error(p_.coulomb_expansions == ExpansionKind::none, {"parallel", "coulomb expansions"},
           "expected coulomb expansions local");
-    error(p_.tolerance && p_.multirate != Multirate::no, {"parallel", "multirate"},
-          "expected multirate no: all forces are evaluated at each stage");
     error(p_.integrator == Scheme::sra1, {"parallel", "integrator"},
           "expected another integrator than sra1, which draws for all beads of the jet");
     if (composable())

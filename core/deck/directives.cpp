@@ -185,7 +185,7 @@ const Directive table[] = {
 
     {.words = "parallel", .member = &P::parallel,
      .meaning = "what ranks hold: all of the jet each (replicated), or a piece each (distributed), for 1e6 beads and "
-                "more; needs system 3, coulomb tree or auto, multirate no",
+                "more; needs system 3, coulomb tree or auto",
      .heading = "Ranks"},
 
     {.words = "print time", .member = &P::print_time, .unit = "s", .check = positive,

@@ -23,6 +23,17 @@ void DistributedMotion::operator()(const Jet<3>& jet, double t, const State<3>& 
   slope.middleRows(own.first, own.size()) = slope_.middleRows(first_, own.size());
   if (solver_) repel(own, slope);
   pieces_.share_ends(slope);
+  if (continued_) set_last_evaluation(jet, t, y);
+}
+
+void DistributedMotion::set_last_evaluation(const Jet<3>& jet, double t, const State<3>& y) {
+  set_boundary<3>(chain_, jet, local_.nozzle(), t, y);
+  set_points<3>(chain_, jet, y, {0, y.rows()});
+  const Rows own = pieces_.own();
+  Eigen::ArrayXXd field(y.rows(), 3);
+  field.middleRows(own.first, own.size()) = field_.topRows(own.size());
+  pieces_.share_ends(field);
+  field_of_rows_ = field;
 }
 
 /// The own beads and, from the ranks next along the chain, one on either side.

@@ -14,7 +14,7 @@
 
 namespace treejet {
 
-class DistributedMotion final : public RightHandSide<3> {
+class DistributedMotion final : public FullMotion<3> {
  public:
   /// `local` has no Coulomb term; it and `pieces` outlive this.
   DistributedMotion(EquationsOfMotion<3>& local, const ChainDecomposition& pieces, Threads threads)
@@ -32,7 +32,16 @@ class DistributedMotion final : public RightHandSide<3> {
     if (solver_) state(*solver_);
   }
 
+  /// Sets chain and field, too, which nobody else looks at.
+  void be_continued() { continued_ = true; }
+
   void operator()(const Jet<3>& jet, double t, const State<3>& y, State<3>& slope) override;
+  const Chain<3>& chain() const override { return chain_; }
+  const Chain<3>::Points& field() const override { return field_of_rows_; }
+  std::pair<const Chain<3>*, Rows> own_elements() const override {
+    return {&local_.chain(), {first_, first_ + pieces_.own().size()}};
+  }
+  double Q() const override { return Q_; }
   double smooth_from(double t) override { return local_.smooth_from(t); }
 
   /// Null without charges.
@@ -41,6 +50,7 @@ class DistributedMotion final : public RightHandSide<3> {
  private:
   void extend(const Jet<3>& jet, const State<3>& y);
   void repel(Rows own, State<3>& slope);
+  void set_last_evaluation(const Jet<3>& jet, double t, const State<3>& y);
 
   EquationsOfMotion<3>& local_;
   const ChainDecomposition& pieces_;
@@ -50,7 +60,10 @@ class DistributedMotion final : public RightHandSide<3> {
   Jet<3> extended_;  ///< the own beads between their neighbours
   int first_ = 0;    ///< of the own ones there
   State<3> slope_;
-  Chain<3>::Points field_;
+  Chain<3>::Points field_;  ///< at the own points
+  bool continued_ = false;
+  Chain<3> chain_;  ///< of all rows
+  Chain<3>::Points field_of_rows_;
 };
 
 }  // namespace treejet

@@ -3,7 +3,6 @@
 /// stretch, and copies of those at both ends of the chain.
 
 #include <algorithm>
-#include <initializer_list>
 #include <vector>
 
 namespace treejet {
@@ -18,8 +17,9 @@ inline Stretch common(Stretch a, Stretch b) {
   return {std::max(a.first, b.first), std::min(a.last, b.last)};
 }
 
-/// Ascending, each bead once; so are those given, but that they may overlap.
-inline std::vector<Stretch> united(std::initializer_list<Stretch> stretches) {
+/// Ascending, each bead once.
+inline std::vector<Stretch> united(std::vector<Stretch> stretches) {
+  std::sort(stretches.begin(), stretches.end(), [](Stretch a, Stretch b) { return a.first < b.first; });
   std::vector<Stretch> all;
   for (Stretch s : stretches) {
     if (!all.empty()) s.first = std::max(s.first, all.back().last);

@@ -143,8 +143,9 @@ void History<D>::before_removal(const Jet<D>& jet, double Q) {
 }
 
 template <int D>
-void History<D>::after_release(const Jet<D>& jet, double Q) {
+void History<D>::after_release(const Jet<D>& jet, double Q, const Decomposition<D>& all) {
   const Eigen::Index youngest = jet.size() - 1;
+  const auto [first_own, last_own] = all.own_rows(youngest);
   for (int k = 0; k < remembered_; ++k) {
     PastEvaluation<D>& m = past_[k];
     const Vec<D> p = position<D>(jet.y, youngest) + (m.t - jet.t) * velocity<D>(jet.y, youngest);
@@ -152,8 +153,13 @@ void History<D>::after_release(const Jet<D>& jet, double Q) {
 
     // the field of all others at p is minus what a charge at p would do to them
     const typename Chain<D>::Points e = field_of<D>(1, p, m.point, youngest + 1);
+    Eigen::ArrayXd charge = m.point_charge;  // counted here: the nozzle's by who holds the youngest bead
+    charge.head(first_own).setZero();
+    if (last_own < youngest) charge.tail(youngest + 1 - last_own).setZero();
+    Eigen::ArrayXd sum = -(e.colwise() * charge).colwise().sum().transpose();
+    all.add_up(sum);
     insert_row(m.field, youngest);
-    m.field.row(youngest) = -(e.colwise() * m.point_charge).colwise().sum();
+    m.field.row(youngest) = sum.transpose();
     insert_row(m.slope, youngest);
     m.slope.row(youngest).setZero();  // a fast bead: not looked at before it has a past of its own
     insert_row(m.point, youngest);
@@ -170,8 +176,7 @@ void History<D>::after_release(const Jet<D>& jet, double Q) {
 }
 
 template <int D>
-int History<D>::before_refinement(const Jet<D>& jet, const Refinement& refinement,
-                                  EquationsOfMotion<D>& full) {
+int History<D>::before_refinement(const Jet<D>& jet, const Refinement& refinement, FullMotion<D>& full) {
   State<D> slope;
   for (int k = 0; k < remembered_; ++k) {
     PastEvaluation<D>& m = past_[k];
@@ -179,12 +184,68 @@ int History<D>::before_refinement(const Jet<D>& jet, const Refinement& refinemen
     past.held = false;
     refine(past, refinement);
     full(past, past.t, past.y, slope);
-    m = {past.t, full.chain(), past, full.coulomb()->field(), slope, full.coulomb()->Q()};
+    m = {past.t, full.chain(), past, full.field(), slope, full.Q()};
     m.state = past.y;
   }
   if (continuable(beads()))
     for (auto& m : past_) m.set_far();
   return remembered_;
+}
+
+/// Of each moment: position, charge, field, slopes.
+template <int D>
+Eigen::ArrayXXd History<D>::of_beads(Eigen::Index first, Eigen::Index rows) const {
+  const Eigen::Index words = 2 * D + 1 + columns();
+  Eigen::ArrayXXd table(rows, remembered_ * words);
+  for (int k = 0; k < remembered_; ++k) {
+    const PastEvaluation<D>& m = past_[k];
+    auto words_of = table.middleCols(k * words, words);
+    words_of.template leftCols<D>() = m.point.middleRows(first, rows);
+    words_of.col(D) = m.point_charge.segment(first, rows);
+    words_of.template middleCols<D>(D + 1) = m.field.middleRows(first, rows);
+    words_of.rightCols(columns()) = m.slope.middleRows(first, rows);
+  }
+  return table;
+}
+
+template <int D>
+void History<D>::set_beads(const Eigen::ArrayXXd& table) {
+  const Eigen::Index n = table.rows(), words = 2 * D + 1 + columns();
+  for (int k = 0; k < remembered_; ++k) {
+    PastEvaluation<D>& m = past_[k];
+    const auto words_of = table.middleCols(k * words, words);
+    const Vec<D> nozzle = m.point.row(m.point.rows() - 1).matrix().transpose();
+    const double charge = m.point_charge[m.point_charge.size() - 1];
+    m.point.resize(n + 1, D);
+    m.point_charge.resize(n + 1);
+    m.point.topRows(n) = words_of.template leftCols<D>();
+    m.point.row(n) = nozzle.transpose().array();
+    m.point_charge.head(n) = words_of.col(D);
+    m.point_charge[n] = charge;
+    m.field = words_of.template middleCols<D>(D + 1);
+    m.slope = words_of.rightCols(columns());
+    if (continuable(n)) m.set_far();
+  }
+}
+
+template <int D>
+void History<D>::visit_all_but_beads(Archive& state) {
+  Eigen::Index columns = this->columns();
+  state(remembered_, columns);
+  if (state.reading() && (remembered_ < 0 || remembered_ > count || columns < 0))
+    throw FileError("the checkpoint remembers what cannot be");
+  for (int k = 0; k < remembered_; ++k) {
+    PastEvaluation<D>& m = past_[k];
+    Points nozzle = m.point.bottomRows(std::min<Eigen::Index>(m.point.rows(), 1));
+    Eigen::ArrayXd charge = m.point_charge.tail(nozzle.rows());
+    state(m.t, nozzle, charge);
+    if (!state.reading()) continue;
+    if (nozzle.rows() != 1 || charge.size() != 1) throw FileError("the checkpoint remembers what cannot be");
+    m.point = nozzle;
+    m.point_charge = charge;
+    m.field.resize(0, D);
+    m.slope.resize(0, columns);
+  }
 }
 
 template struct PastEvaluation<1>;

@@ -6,13 +6,15 @@
 /// and a release the values are repaired as if the bead had always been absent or present; the past of a
 /// released bead is the straight way on which it left. For a refinement of the elements the states are
 /// remembered too, and evaluated anew as if the elements had always been the new ones. Rows are those of the
-/// whole jet. Scaled. Source: e.g. Hairer, Norsett, Wanner, "Solving ODEs I", III.1.
+/// jet: of one in pieces, all fast beads and some of the others. Scaled. Source: e.g. Hairer, Norsett,
+/// Wanner, "Solving ODEs I", III.1.
 
 #include <array>
 
 #include "core/jet/chain.hpp"
+#include "core/jet/decomposition.hpp"
 #include "core/jet/refinement.hpp"
-#include "forces/terms/equations_of_motion.hpp"
+#include "forces/terms/full_motion.hpp"
 #include "parallel/rows.hpp"
 
 namespace treejet {
@@ -91,15 +93,22 @@ class History {
   bool remember(PastEvaluation<D>&& now);
   void forget() { *this = {}; }
   void before_removal(const Jet<D>& jet, double Q);
-  void after_release(const Jet<D>& jet, double Q);
+  void after_release(const Jet<D>& jet, double Q, const Decomposition<D>& all = undivided<D>);
   /// Before `refinement` of the jet: evaluates the same anew for the jets of the past, refined alike. Returns
   /// the evaluations.
-  int before_refinement(const Jet<D>& jet, const Refinement& refinement, EquationsOfMotion<D>& full);
+  int before_refinement(const Jet<D>& jet, const Refinement& refinement, FullMotion<D>& full);
 
   /// FileError if what is read cannot be of one jet.
   void visit(Archive& state);
 
+  /// What is remembered of the beads of some rows, a row each, and of all rows anew; and what is no bead's.
+  Eigen::ArrayXXd of_beads(Eigen::Index first, Eigen::Index rows) const;
+  void set_beads(const Eigen::ArrayXXd& table);
+  void visit_all_but_beads(Archive& state);
+
  private:
+  using Points = typename Chain<D>::Points;
+
   std::array<PastEvaluation<D>, count> past_;  ///< newest first
   int remembered_ = 0;
 };

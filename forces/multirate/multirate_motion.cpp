@@ -37,10 +37,10 @@ void MultirateMotion<D>::operator()(const Jet<D>& jet, double t, const State<D>&
   if (!history_.continuable(y.rows())) {
     full_(jet, t, y, slope);
     ++full_evaluations_;
+  } else if (&jet == &fast_region_.jet) {
+    continued_ends(jet, t, y, slope);
   } else if (y.rows() == history_.beads()) {
     continued(jet, t, y, slope);
-  } else if (y.rows() == fast_region_beads) {
-    continued_ends(jet, t, y, slope);
   } else {
     throw FileError("the checkpoint remembers evaluations of another jet");
   }
@@ -62,7 +62,7 @@ bool MultirateMotion<D>::on_accepted_step(const Jet<D>& jet, double t, const Sta
     history_.forget();
     return evaluated;
   }
-  PastEvaluation<D> now(t, full_.chain(), jet, full_.coulomb()->field(), slope, Q());
+  PastEvaluation<D> now(t, full_.chain(), jet, full_.field(), slope, Q());
   if (refines_) now.state = y;
   double interval = since;
   if (continues) {
@@ -81,7 +81,11 @@ bool MultirateMotion<D>::on_accepted_step(const Jet<D>& jet, double t, const Sta
 template <int D>
 bool MultirateMotion<D>::amplifies() {
   constexpr double most = 9.5, calm = 8.5;  // apart: N goes up and down with each bead that is let go
-  return amplifies_ = short_waves_.growth(full_.chain()) > (amplifies_ ? calm : most);
+  const auto [chain, rows] = full_.own_elements();
+  Eigen::ArrayXd N(1);
+  N[0] = short_waves_.growth(*chain, rows);
+  all_.add_up(N);
+  return amplifies_ = N[0] > (amplifies_ ? calm : most);
 }
 
 /// The error to hold the continuation to. A slow bead gains it over and over on its whole way, while most
@@ -96,7 +100,7 @@ double MultirateMotion<D>::aim() const {
 
 template <int D>
 const FastRegion<D>* MultirateMotion<D>::fast_region(const Jet<D>& jet) {
-  if (!history_.continuable(jet.size()) || jet.size() == fast_region_beads) return nullptr;
+  if (!history_.continuable(jet.size()) || all_.beads(jet) == fast_region_beads) return nullptr;
   follow(jet, jet.y);
   fast_region_.jet.t = jet.t;
   gather_fast(jet.slope, fast_region_.jet.slope);
@@ -142,7 +146,7 @@ void MultirateMotion<D>::continue_middle(const Jet<D>& jet, double t, const Stat
   for (int k = 0; k < history_.columns(); ++k)
     weighted_sum(nullptr, w, history_.slopes(k, i), m, slope.col(velocity_column<D> + k).data() + i);
   if (!jet.held) return;
-  const Nozzle<D>& nozzle = full_.nozzle();
+  const Nozzle<D>& nozzle = local_.nozzle();
   const auto held = nozzle.held(position<D>(y, y.rows() - 1), nozzle.position(t));
   const Points point = y.middleRows(i, m).template leftCols<D>();
   slope.middleRows(i, m).template middleCols<D>(velocity_column<D>) +=
@@ -157,14 +161,14 @@ void MultirateMotion<D>::continued_ends(const Jet<D>& jet, double t, const State
   const Weights w = history_.weights(t);
   slope.resize(n, y.cols());
   field_.resize(n + 2, Eigen::NoChange);
-  set_boundary<D>(chain_, jet, full_.nozzle(), t, y);
+  set_boundary<D>(chain_, jet, local_.nozzle(), t, y);
   set_points<D>(chain_, jet, y, {0, n});
   set_near_beads(w, y, slope);
   for (const FastEnd& end : fast_ends(n, chain_.points())) {
     const int i = end.fast.first, left_out = i == 0 ? 0 : middle;
     set_elements<D>(chain_, jet, y, {std::max(i - 1, 0), end.fast.last});
-    full_.prepare(chain_, end.fast, {1});
-    full_.set_local(chain_, end.fast, slope);
+    local_.prepare(chain_, end.fast, {1});
+    local_.set_local(chain_, end.fast, slope);
     set_near_field<D>(chain_.point, chain_.point_charge, end, field_);
     field_.middleRows(i, end.fast.size()) +=
         history_.continuation(w, &PastEvaluation<D>::far, {i + left_out, end.fast.last + left_out});
@@ -242,7 +246,7 @@ void MultirateMotion<D>::drift(const SolutionPoint<D>& from, double h, Rows midd
 template <int D>
 void MultirateMotion<D>::push_by_held(const Jet<D>& jet, double h, Rows middle, State<D>& all) const {
   const Eigen::Index i = middle.first, m = middle.size(), youngest = jet.size() - 1;
-  const Nozzle<D>& nozzle = full_.nozzle();
+  const Nozzle<D>& nozzle = local_.nozzle();
   Points velocity = Points::Zero(m, D), way = Points::Zero(m, D);
   const auto push = [&](double t, std::array<const double*, D> point, double once, double twice) {
     Vec<D> r;
@@ -280,7 +284,7 @@ double MultirateMotion<D>::mismatch(const Jet<D>& jet, double t, const State<D>&
         far.colwise() * specific_charge(jet, end.fast);
     error.middleRows(i, m).rightCols(history_.columns() - D).setZero();
   }
-  return norm_(error, y);
+  return all_.greatest(norm_(error, y));
 }
 
 template class MultirateMotion<1>;

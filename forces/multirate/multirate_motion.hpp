@@ -39,7 +39,14 @@ class MultirateMotion final : public RightHandSide<D> {
   /// With `refines` elements may be split and merged.
   MultirateMotion(EquationsOfMotion<D>& full, const ErrorNorm& norm, const ShortWaves& short_waves,
                   bool refines = false)
-      : full_(full), norm_(norm), short_waves_(short_waves), refines_(refines) {}
+      : MultirateMotion(full, full, norm, short_waves, undivided<D>) {
+    refines_ = refines;
+  }
+  /// Of a jet in pieces, whose rows here include those of the fast region, these from `local` terms, and all
+  /// from time to time from `full`.
+  MultirateMotion(EquationsOfMotion<D>& local, FullMotion<D>& full, const ErrorNorm& norm,
+                  const ShortWaves& short_waves, const Decomposition<D>& all)
+      : local_(local), full_(full), norm_(norm), short_waves_(short_waves), all_(all) {}
 
   /// For the tables of all beads, or of those that `followed` gave.
   void operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) override;
@@ -55,14 +62,22 @@ class MultirateMotion final : public RightHandSide<D> {
   const FastRegion<D>* fast_region(const Jet<D>& jet) override;
   void complete(const Jet<D>& jet, double h, const State<D>& some, State<D>& next) override;
   void before_removal(const Jet<D>& jet) override { history_.before_removal(jet, Q()); }
-  void after_release(const Jet<D>& jet) override { history_.after_release(jet, Q()); }
+  void after_release(const Jet<D>& jet) override { history_.after_release(jet, Q(), all_); }
   std::int64_t before_refinement(const Jet<D>& jet, const Refinement& refinement) override {
     const int evaluations = history_.before_refinement(jet, refinement, full_);
     full_evaluations_ += evaluations;
     return evaluations;
   }
 
-  void visit(Archive& state) override { state(full_, history_, interval_, full_evaluations_, amplifies_); }
+  void visit(Archive& state) override {
+    state(full_, interval_, full_evaluations_, amplifies_);
+    all_.in_pieces() ? history_.visit_all_but_beads(state) : state(history_);
+  }
+  /// What goes with the beads of a jet in pieces.
+  Eigen::ArrayXXd of_beads(Eigen::Index first, Eigen::Index rows) const {
+    return history_.of_beads(first, rows);
+  }
+  void set_beads(const Eigen::ArrayXXd& table) { history_.set_beads(table); }
 
   std::int64_t full_evaluations() const { return full_evaluations_; }
 
@@ -70,7 +85,7 @@ class MultirateMotion final : public RightHandSide<D> {
   using Points = typename Chain<D>::Points;
   using Weights = typename History<D>::Weights;
 
-  double Q() const { return full_.coulomb()->Q(); }
+  double Q() const { return full_.Q(); }
   Eigen::ArrayXd specific_charge(const Jet<D>& jet, Rows rows) const;
   void follow(const Jet<D>& jet, const State<D>& y);
   void continued(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope);
@@ -85,10 +100,12 @@ class MultirateMotion final : public RightHandSide<D> {
   bool amplifies();
   double aim() const;
 
-  EquationsOfMotion<D>& full_;
+  EquationsOfMotion<D>& local_;
+  FullMotion<D>& full_;
   ErrorNorm norm_;
   ShortWaves short_waves_;
-  bool refines_;
+  const Decomposition<D>& all_;
+  bool refines_ = false;
   History<D> history_;
   double interval_ = 0;  ///< from a moment to the next node that is one, and the longest step
   std::int64_t full_evaluations_ = 0;

@@ -15,6 +15,7 @@
 #include "core/jet/chain.hpp"
 #include "core/jet/parameters.hpp"
 #include "core/jet/scales.hpp"
+#include "parallel/rows.hpp"
 
 namespace treejet {
 
@@ -23,11 +24,15 @@ class ShortWaves {
   explicit ShortWaves(const Parameters& p)
       : repulsion_(1.05179979 * groups(p).Q), tension_(groups(p).L_step * groups(p).F_ve) {}
 
-  /// N of the chain.
+  /// N of the chain, and what some rows of it have of N.
   template <int D>
   double growth(const Chain<D>& c) const {
+    return growth(c, {0, c.beads});
+  }
+  template <int D>
+  double growth(const Chain<D>& c, Rows rows) const {
     double N = 0;
-    for (int i = 0; D == 3 && i + 1 < c.beads; ++i) {
+    for (int i = rows.first; D == 3 && i < rows.last && i + 1 < c.beads; ++i) {
       const double k = c.inverse_length[i];
       const double pushed = repulsion_ * c.point_charge[i] * c.point_charge[i + 1] * k * k,
                    held = tension_ * c.volume[i] * c.stress[i] * k;

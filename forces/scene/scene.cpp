@@ -173,7 +173,6 @@ class Composer {
         : p_.cutoff                              ? "cutoff"
         : properties(chosen_scheme(p_)).implicit ? "a scheme that solves for the local terms"
         : g_.Q == 0                              ? "no Coulomb sum"
-        : in_pieces()                            ? "parallel distributed"
         : !smooth_stress_                        ? "the stress law has a kink or all but a jump"
         : stiffness(p_).relaxes_between_beads()  ? "stress or drag relaxes within the interval of beads"
         : !hasty.empty()                         ? hasty.c_str()
@@ -282,11 +281,19 @@ std::vector<int> whole_jet(const Parameters& p) {
 }  // namespace
 
 void hold_in_pieces(Scene<3>& scene, const Parameters& p, int beads, const JetOfRows& jet_of, Threads threads,
-                    const Ranks& ranks) {
-  auto pieces = std::make_unique<ChainDecomposition>(beads, ranks);
+                    const Ranks& ranks, bool two_rates) {
+  const Ends ends = two_rates ? Ends{fast_region_old, fast_region_beads - fast_region_old} : Ends{};
+  auto pieces = std::make_unique<ChainDecomposition>(beads, ranks, ends);
   auto motion = std::make_unique<DistributedMotion>(*scene.motion, *pieces, threads);
   if (groups(p).Q != 0) motion->add_coulomb(groups(p).Q, coulomb_request(p, /*points_move*/ true));
   pieces->keep([field = motion.get()](Archive& state) { field->visit_field(state); });
+  if (two_rates) {
+    motion->be_continued();
+    scene.multirate = std::make_unique<MultirateMotion<3>>(
+        *scene.motion, *motion, ErrorNorm(p, scene.columns), ShortWaves(p), *pieces);
+    pieces->carry([m = scene.multirate.get()](auto first, auto rows) { return m->of_beads(first, rows); },
+                  [m = scene.multirate.get()](const auto& table) { m->set_beads(table); });
+  }
   scene.jet = jet_of(pieces->rows());
   scene.pieces_error = motion->error();
   scene.pieces_motion = std::move(motion);
@@ -309,13 +316,14 @@ Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks, OwnTe
   scene.motion = std::make_unique<EquationsOfMotion<D>>(nozzle, std::move(law), std::move(local_terms),
                                                         std::move(coulomb), threads);
   for (auto& rate : column_rates) scene.motion->add_column(std::move(rate));
-  if (composer.multirate())
-    scene.multirate =
-        std::make_unique<MultirateMotion<D>>(*scene.motion, ErrorNorm(p, columns), ShortWaves(p), p.refinement);
+  const bool two_rates = composer.multirate();
+  if (two_rates && !composer.in_pieces())
+    scene.multirate = std::make_unique<MultirateMotion<D>>(*scene.motion, ErrorNorm(p, columns),
+                                                           ShortWaves(p), p.refinement);
   if constexpr (D == 3)
     if (composer.in_pieces()) {
       const auto jet_of = [&](const std::vector<int>& rows) { return initial_jet<3>(p, rows, columns); };
-      hold_in_pieces(scene, p, initial_elements(p), jet_of, threads, ranks);
+      hold_in_pieces(scene, p, initial_elements(p), jet_of, threads, ranks, two_rates);
     }
   scene.composed = std::move(composer.composed);
   scene.left_out = std::move(composer.left_out);

@@ -45,8 +45,8 @@ struct Scene {
 
   /// The right-hand side to step with.
   RightHandSide<D>& right_hand_side() {
-    if (pieces_motion) return *pieces_motion;
     if (multirate) return *multirate;
+    if (pieces_motion) return *pieces_motion;
     return *motion;
   }
 
@@ -62,7 +62,7 @@ struct Scene {
 /// a piece by number.
 using JetOfRows = std::function<Jet<3>(const std::vector<int>&)>;
 void hold_in_pieces(Scene<3>& scene, const Parameters& parameters, int beads, const JetOfRows& jet_of,
-                    Threads threads, const Ranks& ranks);
+                    Threads threads, const Ranks& ranks, bool two_rates = false);
 
 template <int D>
 Scene<D> compose(const Parameters& parameters, Threads threads, const Ranks& ranks = {},

@@ -16,15 +16,15 @@
 #include <vector>
 
 #include "core/jet/nozzle.hpp"
-#include "core/jet/right_hand_side.hpp"
 #include "forces/terms/coulomb_force.hpp"
+#include "forces/terms/full_motion.hpp"
 #include "forces/terms/term.hpp"
 #include "parallel/threads.hpp"
 
 namespace treejet {
 
 template <int D>
-class EquationsOfMotion final : public RightHandSide<D> {
+class EquationsOfMotion final : public FullMotion<D> {
  public:
   EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<StressLaw<D>> stress_law,
                     std::vector<std::unique_ptr<ForceTerm<D>>> local_terms,
@@ -61,7 +61,10 @@ class EquationsOfMotion final : public RightHandSide<D> {
 
   /// The Coulomb force, null in a scene without charge, and the chain, both as the last evaluation left them.
   const CoulombForce<D>* coulomb() const { return coulomb_.get(); }
-  const Chain<D>& chain() const { return chain_; }
+  const Chain<D>& chain() const override { return chain_; }
+  const typename Chain<D>::Points& field() const override { return coulomb_->field(); }
+  std::pair<const Chain<D>*, Rows> own_elements() const override { return {&chain_, {0, chain_.beads}}; }
+  double Q() const override { return coulomb_ ? coulomb_->Q() : 0; }
 
   const Nozzle<D>& nozzle() const { return nozzle_; }
   const StressLaw<D>& stress_law() const { return *stress_law_; }

@@ -41,9 +41,12 @@ Deck deck(int points, std::vector<std::string> more) {
 }
 
 /// A jet of some sixty beads through insertions, removals and new cuts.
-Deck short_jet() {
-  return deck(60, {"final time 1.d-3", "print time 5.d-5", "tolerance 1.d-6", "multirate no",
-                   "coulomb accuracy 1.d-5"});
+Deck short_jet(const char* rates = "multirate no") {
+  return deck(60,
+              {"final time 1.d-3", "print time 5.d-5", "tolerance 1.d-6", rates, "coulomb accuracy 1.d-5"});
+}
+Deck two_rates() {
+  return short_jet("multirate auto");
 }
 
 /// One whose pieces see each other through a tree, in an order of points that is kept over evaluations.
@@ -129,7 +132,7 @@ double of_first(const Ranks& ranks, const std::function<double()>& find) {
 
 TEST_CASE("A jet in pieces that is stopped and resumed on as many ranks leaves the bytes of one left alone") {
   const Ranks& ranks = started_ranks();
-  for (const Deck& deck : {short_jet(), tree_in_space()}) {
+  for (const Deck& deck : {short_jet(), two_rates(), tree_in_space()}) {
     const SharedPlace whole(ranks), parts(ranks);
     const Ended left_alone = run(deck, whole.path, ranks);
     REQUIRE(left_alone.arrived);
@@ -146,7 +149,7 @@ TEST_CASE("A jet in pieces that is stopped and resumed on as many ranks leaves t
 
 TEST_CASE("A jet in pieces goes on on another number of ranks, to the accuracy of the field") {
   const Ranks& ranks = started_ranks();
-  const Deck deck = short_jet();
+  const Deck deck = two_rates();
   const SharedPlace whole(ranks), parts(ranks);
   const Ended left_alone = run(deck, whole.path, ranks);
   const std::int64_t stride = left_alone.steps / 3;

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <functional>
 
 #include "forces/distributed/chain_decomposition.hpp"
 #include "validation/support/run.hpp"
@@ -22,10 +24,15 @@ Directives in_pieces(const std::string& accuracy) {
   return {"parallel distributed", "multirate no", "coulomb tree", "coulomb accuracy " + accuracy};
 }
 
+Directives in_pieces_at_two_rates(const std::string& accuracy) {
+  return {"parallel distributed", "coulomb tree", "coulomb accuracy " + accuracy};
+}
+
 struct Flight {
   std::vector<Jet<3>> jets;  ///< whole ones, on the first rank
   Effort effort;
   int recuts = 0;
+  std::int64_t full_evaluations = 0;  ///< at two rates
   double t = 0;
 };
 
@@ -38,6 +45,7 @@ Flight flight(const Parameters& p, const Ranks& ranks, double seconds, double in
   f.jets = snapshots.jets;
   if (const auto* pieces = dynamic_cast<const ChainDecomposition*>(&run.scene.decomposition()))
     f.recuts = pieces->recuts();
+  if (run.scene.multirate) f.full_evaluations = run.scene.multirate->full_evaluations();
   f.t = run.jet().t;
   return f;
 }
@@ -75,6 +83,24 @@ TEST_CASE("A run of pieces is the replicated one through insertions, removals an
   // a millionth of the field moves no bead by more than that part of its way
   CHECK(told_by_first(difference(pieces, whole, p), ranks) < 1e-6);
   CHECK(ranks.agree(fmt::format("{} {} {}", pieces.t, pieces.effort.steps, pieces.effort.removed)));
+}
+
+TEST_CASE("A run of pieces at two rates is the replicated one at two rates") {
+  const Ranks& ranks = started_ranks();
+  for (const auto& [points, seconds] : {std::pair{60, 1e-3}, std::pair{300, 1e-4}}) {
+    const double interval = seconds / 4;
+    const Flight whole = flight(stream(points, {"tolerance 1.d-7"}), {}, seconds, interval);
+    const Parameters p = stream(points, {"tolerance 1.d-7"}, in_pieces_at_two_rates("1.d-6"));
+    const Flight pieces = flight(p, ranks, seconds, interval);
+    CHECK(pieces.effort.released > 3);
+    CHECK(pieces.effort.removed > 3);
+    CHECK(told_by_first(difference(pieces, whole, p), ranks) < 1e-6);  // as above
+    // a step evaluates the ends only: full evaluations are few, and as many here as there
+    CHECK(pieces.full_evaluations < pieces.effort.evaluations / 4);
+    CHECK(std::abs(double(pieces.full_evaluations - whole.full_evaluations)) <
+          0.02 * double(whole.full_evaluations) + 2);
+    CHECK(ranks.agree(fmt::format("{} {} {}", pieces.t, pieces.effort.steps, pieces.full_evaluations)));
+  }
 }
 
 TEST_CASE("Pieces have every local term and meet events at the ends of steps as the whole does") {
@@ -130,16 +156,20 @@ TEST_CASE("Pieces of a jet of one bead, and of one that empties") {
 
 TEST_CASE("Every rank knows which beads it holds, however many there are") {
   const Ranks& ranks = started_ranks();
-  for (int beads : {1, 2, 5, 9, 100}) {
-    const ChainDecomposition pieces(beads, ranks);
-    const std::vector<int> rows = pieces.rows();
-    const Rows own = pieces.own();
-    bool right = rows.front() == 0 && rows.back() == beads - 1 && own.last <= static_cast<int>(rows.size());
-    for (int i = own.first + 1; i < own.last; ++i)
-      right = right && rows[static_cast<std::size_t>(i)] == rows[static_cast<std::size_t>(i) - 1] + 1;
-    double count = own.size();
-    ranks.sum({&count, 1});
-    CHECK(count == beads);
-    CHECK(ranks.greatest(right ? 0 : 1) == 0);
-  }
+  for (const Ends& ends : {Ends{1, 1}, Ends{12, 32}})
+    for (const int beads : {1, 2, 5, 9, 40, 44, 60, 100}) {
+      const ChainDecomposition pieces(beads, ranks, ends);
+      const std::vector<int> rows = pieces.rows();
+      const Rows own = pieces.own();
+      bool right = std::is_sorted(rows.begin(), rows.end(), std::less_equal<>());
+      for (int i = own.first + 1; i < own.last; ++i)
+        right = right && rows.at(static_cast<std::size_t>(i)) == rows.at(static_cast<std::size_t>(i) - 1) + 1;
+      for (int bead = 0; bead < beads; ++bead)
+        if (bead < ends.old || bead >= beads - ends.young)
+          right = right && std::binary_search(rows.begin(), rows.end(), bead);
+      double count = own.size();
+      ranks.sum({&count, 1});
+      CHECK(count == beads);
+      CHECK(ranks.greatest(right ? 0 : 1) == 0);
+    }
 }
