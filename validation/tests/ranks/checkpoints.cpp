@@ -43,7 +43,7 @@ Deck deck(int points, std::vector<std::string> more) {
 /// A jet of some sixty beads through insertions, removals and new cuts.
 Deck short_jet(const char* rates = "multirate no") {
   return deck(60,
-              {"final time 1.d-3", "print time 5.d-5", "tolerance 1.d-6", rates, "coulomb accuracy 1.d-5"});
+              {"final time 5.d-4", "print time 2.5d-5", "tolerance 1.d-6", rates, "coulomb accuracy 1.d-5"});
 }
 Deck two_rates() {
   return short_jet("multirate auto");
