@@ -10,53 +10,49 @@
 #include <exception>
 #include <vector>
 
-#ifdef __SANITIZE_THREAD__
-#include <sanitizer/tsan_interface.h>
-#endif
+#include "parallel/team.hpp"
 
 namespace treejet {
 
 namespace {
 
-/// GCC's OpenMP library is not instrumented, so the thread sanitizer sees neither its fork nor its join and
-/// would report every region. These two tell it: what happened before `hand_over(x)` is visible after
-/// `take_over(x)`. The region's own bookkeeping lies outside of them, hence `no_sanitize_thread` below; all
-/// that f does is watched.
-#ifdef __SANITIZE_THREAD__
-void hand_over(void* x) {
-  __tsan_release(x);
+/// Where OpenMP's variables bind threads to places, a thread goes to the place that one of OpenMP's own
+/// would.
+void bind_to_place(int number) {
+  const int places = omp_get_num_places();
+  if (places == 0 || omp_get_proc_bind() == omp_proc_bind_false) return;
+  const bool spread = omp_get_proc_bind() == omp_proc_bind_spread;
+  const int threads = omp_get_max_threads();
+  const int place = (spread && threads < places ? number * places / threads : number) % places;
+  std::vector<int> cores(static_cast<std::size_t>(omp_get_place_num_procs(place)));
+  omp_get_place_proc_ids(place, cores.data());
+  cpu_set_t mask;
+  CPU_ZERO(&mask);
+  for (int core : cores) CPU_SET(static_cast<std::size_t>(core), &mask);
+  sched_setaffinity(0, sizeof mask, &mask);
 }
-void take_over(void* x) {
-  __tsan_acquire(x);
+
+Team& team() {
+  static Team all(bind_to_place);
+  return all;
 }
-#else
-void hand_over(void*) {}
-void take_over(void*) {}
-#endif
 
 }  // namespace
 
-[[gnu::no_sanitize_thread]] void for_each_task(Threads threads, int count,
-                                               const std::function<void(int)>& f) {
+void for_each_task(Threads threads, int count, const std::function<void(int)>& f) {
   if (threads.count <= 1 || count <= 1) {
     for (int k = 0; k < count; ++k) f(k);
     return;
   }
   std::exception_ptr failure;
   std::atomic_flag failed = ATOMIC_FLAG_INIT;
-  char fork, join;
-  hand_over(&fork);
-#pragma omp parallel for num_threads(threads.count) schedule(dynamic, 1)
-  for (int k = 0; k < count; ++k) {
-    take_over(&fork);
+  team().run(threads.count, count, [&](int k) {
     try {
       f(k);
     } catch (...) {
       if (!failed.test_and_set()) failure = std::current_exception();
     }
-    hand_over(&join);
-  }
-  take_over(&join);
+  });
   if (failure) std::rethrow_exception(failure);
 }
 

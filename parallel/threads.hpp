@@ -1,5 +1,6 @@
 #pragma once
-/// Threads: the only `omp parallel` of the project.
+/// Threads: the only way to them. OpenMP tells cores, places and OMP_NUM_THREADS; the team is our own
+/// (team.hpp).
 ///
 /// Invariant: a block of rows is computed by exactly one thread, and blocks start at multiples of `block`
 /// counted from row 0, whatever the number of threads; a function of rows therefore gives the same bits on

@@ -4,9 +4,9 @@
 /// Points are the beads, oldest first, and then the nozzle, so that the polygon through the points is the
 /// jet. A bead's id counts the beads since the start from 1, in the order of their births; the nozzle has id
 /// 0. Quantities of an element - stress, radius a = a_0 sqrt(V l_step / l) - stand at its lower end; the
-/// nozzle has stress 0, mass 0, radius a_0 and the charge it stands for in the Coulomb sum, that of a bead, and
-/// of a column that the scene adds the value that beads are born with. A held bead (core/jet/nozzle.hpp) is no
-/// point yet.
+/// nozzle has stress 0, mass 0, radius a_0 and the charge it stands for in the Coulomb sum, that of a bead,
+/// and of a column that the scene adds the value that beads are born with. A held bead (core/jet/nozzle.hpp)
+/// is no point yet.
 
 #include <cmath>
 #include <cstdint>
@@ -55,10 +55,15 @@ struct Row {
   std::vector<double> values;
 };
 
+/// Points that a frame of a long jet is taken to files in at a time.
+inline constexpr std::uint64_t points_at_once = 16'384;
+
+/// Not `to_nozzle`: a part of a frame, without the jet's youngest bead, with which the next part begins.
 template <int D>
 Frame frame(const Jet<D>& jet, const Nozzle<D>& nozzle, const Scales& scales, double nozzle_radius,
-            const Material& material = {}) {
+            const Material& material = {}, bool to_nozzle = true) {
   const Columns& added = material.added;
+  const Eigen::Index beads = to_nozzle ? jet.size() : jet.size() - 1;
   Frame f;
   f.time = jet.t * scales.time;
   std::vector<double> position, velocity, stress, charge, mass, radius;
@@ -66,7 +71,7 @@ Frame frame(const Jet<D>& jet, const Nozzle<D>& nozzle, const Scales& scales, do
     for (int k = 0; k < 3; ++k) to.push_back(k < D ? unit * v[k < D ? k : 0] : 0);
   };
   const Vec<D> end = nozzle.position(jet.t);
-  for (Eigen::Index i = 0; i < jet.size(); ++i) {
+  for (Eigen::Index i = 0; i < beads; ++i) {
     const Vec<D> r = treejet::position<D>(jet.y, i);
     const Vec<D> upper = i + 1 < jet.size() ? treejet::position<D>(jet.y, i + 1) : end;
     f.id.push_back(jet.id.size() > 0 ? jet.id[i] : jet.removed + i + 1);
@@ -78,19 +83,21 @@ Frame frame(const Jet<D>& jet, const Nozzle<D>& nozzle, const Scales& scales, do
     mass.push_back(jet.mass[i] * left * scales.mass);
     radius.push_back(nozzle_radius * std::sqrt(jet.volume[i] * left * nozzle.l_step() / (r - upper).norm()));
   }
-  f.id.push_back(0);
-  add(position, end, scales.length);
-  add(velocity, nozzle.velocity(jet.t), scales.velocity);
-  stress.push_back(0);
-  charge.push_back(Nozzle<D>::charge * scales.charge);
-  mass.push_back(0);
-  radius.push_back(nozzle_radius);
+  if (to_nozzle) {
+    f.id.push_back(0);
+    add(position, end, scales.length);
+    add(velocity, nozzle.velocity(jet.t), scales.velocity);
+    stress.push_back(0);
+    charge.push_back(Nozzle<D>::charge * scales.charge);
+    mass.push_back(0);
+    radius.push_back(nozzle_radius);
+  }
   f.columns = {position, velocity, stress, charge, mass, radius};
   for (std::size_t k = 0; k < added.size(); ++k) {
     std::vector<double>& values = f.columns.emplace_back();
-    for (Eigen::Index i = 0; i < jet.size(); ++i)
+    for (Eigen::Index i = 0; i < beads; ++i)
       values.push_back(jet.y(i, own_columns<D> + static_cast<Eigen::Index>(k)) * added[k].scale);
-    values.push_back(added[k].at_birth * added[k].scale);
+    if (to_nozzle) values.push_back(added[k].at_birth * added[k].scale);
   }
   return f;
 }

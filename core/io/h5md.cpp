@@ -221,6 +221,74 @@ void H5md::append(std::span<const Frame> frames) {
   frames_ += frames.size();
 }
 
+void H5md::begin_frame(std::int64_t step, double time, std::uint64_t points) {
+  points_ = std::max(points_, points);
+  for (const auto& [name, unit, width] : columns_) {
+    Extent extent{frames_ + 1, points_};
+    if (width > 1) extent.push_back(static_cast<std::uint64_t>(width));
+    file_.resize(element(jet, name, "value"), extent);
+  }
+  file_.resize(element(jet, "id", "value"), {frames_ + 1, points_});
+  put(element(jet, columns_[0].name, "step"), std::vector<std::int64_t>{step}, {1});
+  put(element(jet, columns_[0].name, "time"), std::vector<double>{time}, {1});
+  ++frames_;
+  filled_ = 0;
+}
+
+void H5md::append_part(const Frame& part) {
+  const std::uint64_t n = part.points(), frame = frames_ - 1;
+  if (n == 0) return;
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    Hdf5File::Box box{{frame, filled_}, {1, n}};
+    if (const int width = columns_[c].width; width > 1)
+      box.first.push_back(0), box.size.push_back(static_cast<std::uint64_t>(width));
+    file_.write(element(jet, columns_[c].name, "value"), box, part.columns[c].data());
+  }
+  file_.write(element(jet, "id", "value"), {{frame, filled_}, {1, n}}, part.id.data());
+  filled_ += n;
+}
+
+Frame H5md::part(std::uint64_t frame, std::uint64_t first, std::uint64_t count) const {
+  Frame f;
+  file_.read(element(jet, columns_[0].name, "step"), {{frame}, {1}}, &f.step);
+  file_.read(element(jet, columns_[0].name, "time"), {{frame}, {1}}, &f.time);
+  count = std::min(count, points_ - std::min(first, points_));
+  f.id.resize(count);
+  if (count > 0) file_.read(element(jet, "id", "value"), {{frame, first}, {1, count}}, f.id.data());
+  f.id.erase(std::find(f.id.begin(), f.id.end(), absent), f.id.end());
+  for (const auto& [name, unit, width] : columns_) {
+    const auto w = static_cast<std::uint64_t>(width);
+    std::vector<double>& values = f.columns.emplace_back(f.points() * w);
+    Hdf5File::Box box{{frame, first}, {1, f.points()}};
+    if (width > 1) box.first.push_back(0), box.size.push_back(w);
+    if (!values.empty()) file_.read(element(jet, name, "value"), box, values.data());
+  }
+  return f;
+}
+
+std::uint64_t H5md::points_of(std::uint64_t frame) const {
+  std::vector<std::int64_t> id(points_at_once);
+  for (std::uint64_t first = 0; first < points_; first += points_at_once) {
+    id.resize(std::min(points_at_once, points_ - first));
+    file_.read(element(jet, "id", "value"), {{frame, first}, {1, id.size()}}, id.data());
+    const auto end = std::find(id.begin(), id.end(), absent);
+    if (end != id.end()) return first + static_cast<std::uint64_t>(end - id.begin());
+  }
+  return points_;
+}
+
+std::pair<double, std::uint64_t> H5md::copy_frame(const H5md& from, std::uint64_t frame) {
+  const std::uint64_t points = from.points_of(frame);
+  Frame part = from.part(frame, 0, points_at_once);
+  const double time = part.time;
+  begin_frame(part.step, time, points);
+  while (true) {
+    append_part(part);
+    if (filled_ >= points) return {time, points};
+    part = from.part(frame, filled_, points_at_once);
+  }
+}
+
 void H5md::append(std::span<const Row> rows) {
   if (rows.empty() || content_.keys.empty()) return;
   std::vector<std::int64_t> step;

@@ -16,6 +16,7 @@
 
 #include <map>
 #include <span>
+#include <utility>
 
 #include "core/io/frame.hpp"
 #include "core/io/hdf5_file.hpp"
@@ -43,6 +44,11 @@ class H5md {
 
   void append(std::span<const Frame> frames);
   void append(std::span<const Row> rows);
+  /// A frame of so many points, which then come in parts, oldest first.
+  void begin_frame(std::int64_t step, double time, std::uint64_t points);
+  void append_part(const Frame& part);
+  /// A frame of another file, never the whole of it at once; returned are its time and points.
+  std::pair<double, std::uint64_t> copy_frame(const H5md& from, std::uint64_t frame);
   void close() { file_.close(); }
 
   std::uint64_t frames() const { return frames_; }
@@ -53,6 +59,8 @@ class H5md {
   const FrameColumns& columns() const { return columns_; }
 
   std::vector<Frame> frames(std::uint64_t first, std::uint64_t count) const;
+  /// So many points of a frame; fewer where it ends.
+  Frame part(std::uint64_t frame, std::uint64_t first, std::uint64_t count) const;
   std::vector<Row> rows(std::uint64_t first, std::uint64_t count) const;
 
  private:
@@ -60,6 +68,7 @@ class H5md {
   void check_extents() const;
   void describe();
   void make_elements(const Chunk& chunk);
+  std::uint64_t points_of(std::uint64_t frame) const;
   template <class T>
   void put(const std::string& element, const std::vector<T>& table, Extent size);
 
@@ -67,6 +76,7 @@ class H5md {
   Content content_;
   FrameColumns columns_;
   std::uint64_t frames_ = 0, rows_ = 0, points_ = 0;
+  std::uint64_t filled_ = 0;  ///< points of the frame begun last
 };
 
 }  // namespace treejet

@@ -20,8 +20,9 @@ namespace {
 
 /// While it grows a frame is a chunk, and not compressed: it is written twice, and a third time in the end.
 constexpr H5md::Chunk growing{1, 256, /*compressed*/ false};
-constexpr std::size_t most_pending = 256;  ///< frames in memory
-constexpr int flush_share = 50;            ///< a flush takes at most this part of the time
+constexpr std::size_t most_pending = 256;               ///< frames in memory
+constexpr std::size_t most_pending_points = 1'000'000;  ///< of them together
+constexpr int flush_share = 50;                         ///< a flush takes at most this part of the time
 
 /// Whether someone has the file open: HDF5 locks what it reads.
 bool in_use(const fs::path& path) {
@@ -69,7 +70,7 @@ fs::path H5mdTrajectory::twin() const {
 
 void H5mdTrajectory::append(Frame frame) {
   frame.step = static_cast<std::int64_t>(frames_++);
-  add_grid(frame);
+  add_grid(frame.time, frame.points());
   pending_.frames.push_back(std::move(frame));
   flush_if_due();
 }
@@ -80,13 +81,30 @@ void H5mdTrajectory::append(Row row) {
   flush_if_due();
 }
 
-void H5mdTrajectory::add_grid(const Frame& frame) {
-  points_ = std::max<std::uint64_t>(points_, frame.points());
-  xdmf_.add({frame.time, frame.points()});
+void H5mdTrajectory::append(double time, std::uint64_t points, const Parts& parts) {
+  flush();
+  bring_twin_up_to_date();
+  H5md file(twin(), Hdf5File::Access::append);
+  file.begin_frame(static_cast<std::int64_t>(frames_), time, points);
+  parts([&file](const Frame& part) { file.append_part(part); });
+  file.close();
+  exchange_with_twin();
+  behind_ = {};
+  last_is_behind_ = twin_;
+  ++frames_;
+  add_grid(time, points);
+  write_xdmf();
+}
+
+void H5mdTrajectory::add_grid(double time, std::uint64_t points) {
+  points_ = std::max(points_, points);
+  xdmf_.add({time, points});
 }
 
 void H5mdTrajectory::flush_if_due() {
-  if (Clock::now() >= next_flush_ || pending_.frames.size() >= most_pending) flush();
+  const std::size_t most = pending_.frames.size() * points_;
+  if (Clock::now() >= next_flush_ || pending_.frames.size() >= most_pending || most >= most_pending_points)
+    flush();
 }
 
 void H5mdTrajectory::flush() {
@@ -107,9 +125,14 @@ void H5mdTrajectory::bring_twin_up_to_date() {
     fs::copy_file(path_, twin(), error);
     if (error) throw FileError(fmt::format("{}: cannot be copied: {}", path_.string(), error.message()));
     behind_ = {};
+    last_is_behind_ = false;
     twin_ = true;
   }
   H5md file(twin(), Hdf5File::Access::append);
+  if (std::exchange(last_is_behind_, false)) {
+    const H5md whole(path_, Hdf5File::Access::read);
+    file.copy_frame(whole, whole.frames() - 1);
+  }
   for (const Samples* samples : {&behind_, &pending_}) {
     file.append(samples->frames);
     file.append(samples->rows);
@@ -149,6 +172,7 @@ void H5mdTrajectory::finish() {
 
 void H5mdTrajectory::continue_from(std::uint64_t frames, std::uint64_t rows) {
   pending_ = behind_ = {};
+  last_is_behind_ = false;
   frames_ = frames;
   rows_ = rows;
   rewrite(/*final_form*/ false);
@@ -170,9 +194,14 @@ void H5mdTrajectory::rewrite(bool final_form) {
   H5md fresh(twin(), content_, chunk);
   xdmf_ = {};
   points_ = 0;
-  for (std::uint64_t i = 0; i < frames_; i += at_once) {
+  const bool long_frames = file.points() > points_at_once;
+  for (std::uint64_t i = 0; long_frames && i < frames_; ++i) {
+    const auto [time, points] = fresh.copy_frame(file, i);
+    add_grid(time, points);
+  }
+  for (std::uint64_t i = 0; !long_frames && i < frames_; i += at_once) {
     const std::vector<Frame> frames = file.frames(i, std::min(at_once, frames_ - i));
-    for (const Frame& f : frames) add_grid(f);
+    for (const Frame& f : frames) add_grid(f.time, f.points());
     fresh.append(frames);
   }
   fresh.append(file.rows(0, rows_));

@@ -12,9 +12,13 @@
 /// then a frame is a chunk, and a flush is due when fifty times its own duration has passed, at a checkpoint,
 /// and at the end.
 ///
+/// A frame that is written part by part, as those of a jet in pieces are, is flushed at once, and copied part
+/// by part to the twin at the next flush.
+///
 /// Errors: FileError; what was flushed before stays.
 
 #include <chrono>
+#include <functional>
 
 #include "core/base/output_file.hpp"
 #include "core/io/h5md.hpp"
@@ -35,6 +39,9 @@ class H5mdTrajectory {
   /// Sets step to the number of the frame, or row.
   void append(Frame frame);
   void append(Row row);
+  /// A frame of so many points that nobody holds as a whole: its parts go straight to the file.
+  using Parts = std::function<void(const std::function<void(const Frame& part)>& take)>;
+  void append(double time, std::uint64_t points, const Parts& parts);
 
   /// All that has been appended is in the file.
   void flush();
@@ -56,7 +63,7 @@ class H5mdTrajectory {
   using Clock = std::chrono::steady_clock;
 
   std::filesystem::path twin() const;
-  void add_grid(const Frame& frame);
+  void add_grid(double time, std::uint64_t points);
   void flush_if_due();
   void bring_twin_up_to_date();
   void exchange_with_twin();
@@ -67,8 +74,9 @@ class H5mdTrajectory {
   H5md::Content content_;
   Xdmf xdmf_;
   std::uint64_t frames_ = 0, rows_ = 0, points_ = 0;
-  Samples pending_;  ///< not in the file
-  Samples behind_;   ///< in the file, not in the twin
+  Samples pending_;              ///< not in the file
+  Samples behind_;               ///< in the file, not in the twin
+  bool last_is_behind_ = false;  ///< the file's last frame, which came in parts, is not in the twin
   bool twin_ = false;
   Clock::time_point next_flush_ = Clock::now();
 };

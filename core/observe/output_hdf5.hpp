@@ -2,6 +2,8 @@
 /// traj.h5 as a run sees it: frames every `print hdf5`, and the rows of the `print list` observables every
 /// `print time`. Wall-clock observables are left out: the file is a function of the run.
 
+#include <functional>
+#include <limits>
 #include <memory>
 
 #include "core/io/h5md_trajectory.hpp"
@@ -39,11 +41,33 @@ class Hdf5Trajectory final : public Sampling<D> {
 
  protected:
   void sample(const Jet<D>& jet) override {
-    file_->append(frame<D>(whole<D>(this->decomposition(), jet), setting_.nozzle, setting_.scales,
-                           setting_.nozzle_radius, setting_.material));
+    const Decomposition<D>& all = this->decomposition();
+    if (!all.in_pieces()) return file_->append(part(jet));
+    const auto points = static_cast<std::uint64_t>(all.beads(jet)) + 1;
+    file_->append(jet.t * setting_.scales.time, points, [&](const auto& take) { give(jet, take); });
   }
 
  private:
+  Frame part(const Jet<D>& some, bool to_nozzle = true) const {
+    return frame<D>(some, setting_.nozzle, setting_.scales, setting_.nozzle_radius, setting_.material,
+                    to_nozzle);
+  }
+
+  /// The parts of a frame, each when the next is there, whose first bead its youngest element ends at.
+  void give(const Jet<D>& jet, const std::function<void(const Frame&)>& take) const {
+    Jet<D> last = at<D>(jet, jet.t, jet.y.topRows(0));
+    constexpr auto all = std::numeric_limits<std::int64_t>::max();
+    this->decomposition().in_portions(jet, all, [&](const Jet<D>& some) {
+      if (const Eigen::Index n = last.size(); n > 0) {
+        last.y.conservativeResize(n + 1, Eigen::NoChange);
+        last.y.row(n) = some.y.row(0);
+        take(part(last, /*to_nozzle*/ false));
+      }
+      last = some;
+    });
+    take(part(last));
+  }
+
   Setting setting_;
   std::shared_ptr<H5mdTrajectory> file_;
 };

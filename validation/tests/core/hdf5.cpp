@@ -115,6 +115,59 @@ TEST_CASE("The bytes of a finished trajectory do not depend on how often it was 
   CHECK(std::distance(fs::directory_iterator(place.path / "often"), {}) == 2);
 }
 
+TEST_CASE("A frame that comes in parts is the frame, wherever the file is cut off and continued") {
+  const Place place;
+  constexpr int last = 9;
+  // every third one comes in parts, of which none is as long as the frame
+  const auto appended = [](H5mdTrajectory& file, int first, int end) {
+    for (int k = first; k < end; ++k) {
+      const Frame all = frame_of(k);
+      file.append(row_of(k));
+      if (k % 3 != 1) {
+        file.append(all);
+        continue;
+      }
+      file.append(all.time, all.points(), [&](const auto& take) {
+        constexpr std::size_t at_once = 40;
+        for (std::size_t begin = 0; begin < all.points(); begin += at_once) {
+          const std::size_t n = std::min(at_once, all.points() - begin);
+          Frame part;
+          part.id.assign(all.id.begin() + long(begin), all.id.begin() + long(begin + n));
+          for (const auto& values : all.columns) {
+            const std::size_t width = values.size() / all.points();
+            part.columns.emplace_back(values.begin() + long(begin * width),
+                                      values.begin() + long((begin + n) * width));
+          }
+          take(part);
+        }
+      });
+    }
+  };
+  std::string expected;
+  for (const int kept : {last, 2, 5}) {
+    CAPTURE(kept);
+    const fs::path path = place.path / fmt::format("kept-{}", kept) / "traj.h5";
+    {
+      H5mdTrajectory killed(path, content, Existing::keep);
+      appended(killed, 0, last);
+    }
+    H5mdTrajectory file(path, content, Existing::resume);
+    file.continue_from(static_cast<std::uint64_t>(kept), static_cast<std::uint64_t>(kept));
+    appended(file, kept, last);
+    file.finish();
+    const H5md read(path, Hdf5File::Access::read);
+    REQUIRE(read.frames() == last);
+    for (int k = 0; k < last; ++k) {
+      Frame frame = frame_of(k);
+      frame.step = k;
+      check_same(read.frames(static_cast<std::uint64_t>(k), 1).front(), frame);
+      if (frame.points() > 7) CHECK(read.part(static_cast<std::uint64_t>(k), 5, 2).id[1] == frame.id[6]);
+    }
+    if (expected.empty()) expected = read_whole(path);
+    CHECK(read_whole(path) == expected);
+  }
+}
+
 TEST_CASE("A trajectory continued from an earlier frame has the bytes of one that was never interrupted") {
   const Place place;
   const std::string expected = written_at_once(place.path / "once" / "traj.h5");

@@ -1,0 +1,85 @@
+#include "parallel/team.hpp"
+
+namespace treejet {
+
+namespace {
+
+constexpr std::uint64_t one_job = std::uint64_t{1} << 32;
+/// Looks at what is waited for, others being let go ahead, before a thread sleeps: ten microseconds or so
+/// where nobody else wants the core.
+constexpr int looks = 20;
+
+std::uint64_t job(std::uint64_t job_and_task) {
+  return job_and_task / one_job;
+}
+int task(std::uint64_t job_and_task) {
+  return static_cast<int>(job_and_task % one_job);
+}
+bool is_open(std::uint64_t job_and_task) {
+  return job(job_and_task) % 2 == 0;
+}
+
+template <class Condition>
+bool soon(Condition holds) {
+  for (int k = 0; k < looks; ++k) {
+    if (holds()) return true;
+    std::this_thread::yield();
+  }
+  return false;
+}
+
+}  // namespace
+
+Team::~Team() {
+  closing_ = true;
+  job_and_task_ += one_job;
+  job_and_task_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+/// A job is closed while it is described: whoever has seen the one before can take no task of it by then.
+void Team::run(int threads, int count, const std::function<void(int)>& f) {
+  const std::unique_lock alone(busy_, std::try_to_lock);
+  if (!alone || threads <= 1 || count <= 1) {
+    for (int k = 0; k < count; ++k) f(k);
+    return;
+  }
+  while (static_cast<int>(threads_.size()) < threads - 1)
+    threads_.emplace_back([this, number = static_cast<int>(threads_.size()) + 1] { work(number); });
+  const std::uint64_t closed = (job(job_and_task_) | 1) * one_job;
+  job_and_task_ = closed;
+  f_ = &f;
+  count_ = count;
+  helpers_ = threads - 1;
+  done_ = 0;
+  job_and_task_ = closed + one_job;
+  job_and_task_.notify_all();
+  take_part();
+  if (soon([&] { return done_ == count; })) return;
+  for (int done = done_; done < count; done = done_) done_.wait(done);
+}
+
+/// Tasks of the job that is open, until there are no more.
+void Team::take_part() {
+  while (true) {
+    std::uint64_t next = job_and_task_;
+    const std::function<void(int)>* const f = f_;
+    const int count = count_;
+    if (!is_open(next) || task(next) >= count) return;
+    if (!job_and_task_.compare_exchange_strong(next, next + 1)) continue;
+    (*f)(task(next));
+    if (++done_ == count) done_.notify_one();
+  }
+}
+
+void Team::work(int number) {
+  at_start_(number);
+  for (std::uint64_t seen = 0; !closing_;) {
+    if (number <= helpers_) take_part();
+    seen = job_and_task_;
+    if (is_open(seen) && task(seen) < count_ && number <= helpers_) continue;
+    if (!soon([&] { return job(job_and_task_) != job(seen); })) job_and_task_.wait(seen);
+  }
+}
+
+}  // namespace treejet
