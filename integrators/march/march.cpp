@@ -47,10 +47,12 @@ template <int D>
 double March<D>::zero(bool insertion, const DenseOutput<D>& segment, double a, double b) {
   double ga = overdue(insertion, segment, a), gb = overdue(insertion, segment, b);
   if (ga >= 0) return a;
+  const double wide = 1e-6 * (b - a);
   // regula falsi, Illinois variant
   for (int i = 0; i < 60 && gb != 0 && b - a > 1e-15 * b; ++i) {
     const double c = (a * gb - b * ga) / (gb - ga);
-    if (!(c > a)) return a;  // the zero but for round-off, with b still far away
+    // the zero but for round-off; b may still be far away if the function is straight
+    if (!(c > a)) return b - a > wide ? a : b;
     if (!(c < b)) break;
     const double gc = overdue(insertion, segment, c);
     if (gc < 0) {
