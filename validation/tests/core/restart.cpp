@@ -116,7 +116,7 @@ std::vector<Case> cases() {
                    {"collector distance 3.", "dynamic refinement yes", "dynamic refinement every 2.d-4",
                     "dynamic refinement threshold 0.05"}),
       output_often("pvp", 2e-3,
-                   {"collector distance 0.1", "model slender", "flow rate 60 mL/h", "initial length 0.03"}),
+                   {"collector distance 1.", "model slender", "flow rate 60 mL/h", "initial length 0.03"}),
       output_often("pvp", 4e-6, fixed_tree),
       output_often("pvp", 2e-4, two_rate_tree)};
 }
