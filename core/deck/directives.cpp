@@ -104,7 +104,7 @@ const Directive table[] = {
     {.words = "small strain rate", .member = &P::small_strain_rate, .unit = "1/s", .check = positive,
      .meaning = "strain rate over which the sign of a strain rate is rounded, in hbfluid, yield stress and stress law power-law; "
                 "elements that come to rest take steps as its root",
-     .absent = "a hundredth of elastic modulus / viscosity"},
+     .absent = "a tenth of elastic modulus / viscosity"},
 
     {.words = "evaporation", .member = &P::evaporation,
      .meaning = "the solvent leaves the jet, which thickens: needs polymer frac", .heading = "Evaporation", .since_1_21 = true},

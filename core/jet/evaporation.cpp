@@ -74,7 +74,8 @@ Evaporation::Evaporation(const Parameters& p)
       m_(p.viscosity_m),
       t_(p.relaxation_t) {
   constexpr double solid = 0.9;  // concentration, of JETSPIN
-  driest_ = by_vapour_ ? 0 : polymer_ / solid - polymer_;
+  // by vapour nothing stops: below 0 the activity is negative, and what a step overshoots comes back
+  driest_ = by_vapour_ ? -polymer_ : polymer_ / solid - polymer_;
   activity_scale_ = by_vapour_
                         ? p.vapour_density.value_or(vapour_density(p.solvent, p.temperature)) / p.density_mass
                         : vapour_pressure(SolventName::water, p.temperature) / atmosphere;

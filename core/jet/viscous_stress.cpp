@@ -5,7 +5,7 @@
 namespace treejet {
 
 double small_strain_rate(const Parameters& p) {
-  constexpr double part = 0.01;
+  constexpr double part = 0.1;
   return p.small_strain_rate.value_or(part / scales(p).time);
 }
 

@@ -39,7 +39,7 @@ struct ViscousStress {
 /// That of a deck's fluid; none acts in Maxwell's.
 ViscousStress viscous_stress(const Parameters& p);
 
-/// r_0 in 1/s: the deck's, or a hundredth of the rate of relaxation.
+/// r_0 in 1/s: the deck's, or a tenth of the rate of relaxation.
 double small_strain_rate(const Parameters& p);
 
 /// K of a deck's `hbfluid consistency`, which is in units of the viscosity with strain rates in 1/s.

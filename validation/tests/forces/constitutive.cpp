@@ -84,6 +84,7 @@ TEST_CASE("A deck's consistency is scaled to units of the viscosity with strain 
   p.hb_consistency = 3;
   p.hb_index = 0.5;
   p.yield_stress = 2000;
+  p.small_strain_rate = 1;
   const auto scene = compose<1>(p, {1});
   // stress k mu rate^nu at 100/s, over G; tau = 0.01 s makes the scaled rate 1
   const double expected = (2000 + 3 * 100 * std::pow(100, 0.5)) / 10000;
@@ -93,6 +94,7 @@ TEST_CASE("A deck's consistency is scaled to units of the viscosity with strain 
 TEST_CASE("A yield stress without hbfluid adds to a Newtonian dashpot") {
   Parameters p = example("single-bead");
   p.yield_stress = 5000;
+  p.small_strain_rate = 1;
   const auto scene = compose<1>(p, {1});
   CHECK(stress_rate(scene.motion->stress_law(), 2, 0.25) ==
         Approx(0.5 + 2 - 0.25).epsilon(1e-5));  // r_0 = r / 200

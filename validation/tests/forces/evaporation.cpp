@@ -32,7 +32,8 @@ double left_after(const Parameters& p, double cm, double speed, double seconds, 
   jet.y = State<1>(0, own_columns<1> + 1);
   for (double x : {cm + 0.1, 0.1}) {
     Bead<1> bead{Vec<1>(x / s.length), Vec<1>(speed / s.velocity)};
-    bead.added = {columns[0].at_birth};
+    // the element up to the nozzle only grows: it is dry
+    bead.added = {jet.size() == 0 ? columns[0].at_birth : 0};
     append(jet, bead);
   }
   Parameters stepped = with_steps(p, Scheme::rk4, seconds / steps);
@@ -82,7 +83,7 @@ TEST_CASE("JETSPIN's law dries water some 1330 times faster than the vapour that
 TEST_CASE("A jet dries until it is in balance with humid air, and never loses more than its solvent") {
   Parameters p = drying(EvaporationModel::vapour);
   p.humidity = 0.4;
-  const double c = 0.06 / left_after(p, 3, 1500, 5, 4000);
+  const double c = 0.06 / left_after(p, 3, 1, 50, 40000);
   // at balance: to what is left of the approach after so long
   CHECK((1 - c) * std::exp(c + 0.5 * c * c) == Approx(0.4).epsilon(1e-8));
   p.humidity = 0;
