@@ -148,7 +148,7 @@ class Relations {
           "expected no cutoff: its reach is a number of beads");
     error(p_.parallel == ParallelData::distributed, {"dynamic refinement", "parallel"},
           "expected parallel replicated: a jet in pieces is not refined");
-    note(p_.self_field == SelfField::point && p_.density_charge > 0, "dynamic refinement",
+    note(p_.self_field == SelfField::point && p_.density_charge != 0, "dynamic refinement",
          "halving the elements of a chain of point charges changes the force on it; write self field "
          "slender for one that does not depend on them");
     if (!p_.refinement_threshold || !sound("initial length")) return;

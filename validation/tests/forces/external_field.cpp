@@ -138,7 +138,7 @@ TEST_CASE("A bead that falls from needle to plate keeps its energy") {
     return velocity<3>(jet.y, 0).squaredNorm() / 2 + V * h * field.potential(position<3>(jet.y, 0));
   };
   const double before = energy();
-  march_to<3>(1, 1e-3, jet, f, p, Scheme::verner6);
+  march_to<3>(3, 1e-3, jet, f, p, Scheme::verner6);
   CHECK(jet.y(0, 0) > 2);
   // order 6: near the tip the field changes in times of 0.05, 50 steps
   CHECK(energy() == Approx(before).epsilon(1e-9));
