@@ -85,10 +85,11 @@ void write_provenance(const std::filesystem::path& directory, const std::string&
 /// Draws the pictures and writes the page.
 bool publish(const std::string& directory) {
   std::fflush(stdout);
-  return std::system(fmt::format("/usr/bin/python3 {} {}",
-                                 treejet::shell_word(treejet::source_tree() + "/validation/pictures/report.py"),
-                                 treejet::shell_word(directory))
-                         .c_str()) == 0;
+  return std::system(
+             fmt::format("/usr/bin/python3 {} {}",
+                         treejet::shell_word(treejet::source_tree() + "/validation/pictures/report.py"),
+                         treejet::shell_word(directory))
+                 .c_str()) == 0;
 }
 
 /// A study that breaks off is a claim that does not hold; the others go on.

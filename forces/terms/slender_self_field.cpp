@@ -155,7 +155,8 @@ struct Answer {
 Answer answer(Section section, double V, double l, double joint) {
   const double line = V / l;
   const Logarithm g = limited(plain_g(1 / l, section.squared_radius(line)));
-  return {V * line * (g.value - joint), line * line * (tension_factor(g) + joint), line * line / l * (stiffness_factor(g) - 2 * joint)};
+  return {V * line * (g.value - joint), line * line * (tension_factor(g) + joint),
+          line * line / l * (stiffness_factor(g) - 2 * joint)};
 }
 
 /// Of the youngest element, of length d, by d.

@@ -40,9 +40,9 @@ std::vector<RankLayout> teams(bool quick) {
 }
 
 void run(const Scene& scene, const RankLayout& layout, const fs::path& results) {
-  std::string arguments = fmt::format("run {} --quiet --force --out {}",
-                                      shell_word(source_tree() + "/validation/decks/stream.dat"),
-                                      shell_word(results.string()));
+  std::string arguments =
+      fmt::format("run {} --quiet --force --out {}",
+                  shell_word(source_tree() + "/validation/decks/stream.dat"), shell_word(results.string()));
   for (const auto& d : scene.directives) arguments += " --set " + shell_word(d);
   const std::string line = launch_line(layout, /*pinned*/ false, program_path(), arguments) + " 2>/dev/null";
   if (std::system(line.c_str()) != 0) throw Error(1, "failed: " + line);

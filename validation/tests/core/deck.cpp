@@ -237,10 +237,10 @@ TEST_CASE("No value is guessed by its letters: on is not no, gc is not vc", "[de
 TEST_CASE(
     "A feature that is switched off, or concerns files alone, is one note whatever the number of its lines",
     "[deck]") {
-  for (const char* line : {"multiple step no", "evaporation no", "restart no", "variable mass no",
-                           "dragvel yes", "noise pool 10", "lorentz no", "mirror no", "job time 3600",
-                           "print binary 1.d-4 style 3", "printstat binary", "print pdb frame 1.d-3",
-                           "print xyz frame 1.d-2", "print rescalexyz", "cutoff points 1000"}) {
+  for (const char* line :
+       {"multiple step no", "restart no", "variable mass no", "dragvel yes", "noise pool 10", "lorentz no",
+        "mirror no", "job time 3600", "print binary 1.d-4 style 3", "printstat binary",
+        "print pdb frame 1.d-3", "print xyz frame 1.d-2", "print rescalexyz", "cutoff points 1000"}) {
     INFO(line);
     const Deck deck = parse_deck(altered("", line), name);
     const auto about = [&](const std::string& note) { return note.find(": left out") != std::string::npos; };

@@ -3,13 +3,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "forces/terms/gravity.hpp"
 #include "forces/terms/laws/elastoviscoplastic.hpp"
 #include "forces/terms/laws/fene_p.hpp"
 #include "forces/terms/laws/giesekus.hpp"
 #include "forces/terms/laws/inelastic.hpp"
 #include "forces/terms/laws/kelvin_voigt.hpp"
 #include "forces/terms/laws/oldroyd_b.hpp"
-#include "forces/terms/gravity.hpp"
 #include "forces/terms/viscoelastic.hpp"
 #include "forces/terms/viscous_tension.hpp"
 #include "validation/support/prescribed.hpp"

@@ -3,10 +3,10 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
-#include "forces/terms/slender_self_field.hpp"
-#include "forces/terms/surface_energy.hpp"
 #include "forces/terms/external_field.hpp"
 #include "forces/terms/gravity.hpp"
+#include "forces/terms/slender_self_field.hpp"
+#include "forces/terms/surface_energy.hpp"
 #include "forces/terms/viscoelastic.hpp"
 #include "integrators/schemes/chain_solver.hpp"
 #include "validation/support/run.hpp"

@@ -111,7 +111,7 @@ ends 2 "did you mean viscosity" "a wrong deck" on 3 "$treejet" run "$pvp" --out 
 ends 2 "not expected: --fast" "a wrong argument" on 2 "$treejet" run "$pvp" --fast
 ends 3 "likely cause" "a numerical failure" on 3 "$treejet" run "$pvp" --out stopped --quiet \
   --set "integrator 2" --set "timestep 1.d-3" --set "final time 5.d-2" --set "print time 1.d-3"
-ends 4 "exists already" "a run over existing results" on 2 "$treejet" run "$pvp" --quiet --out few
+ends 4 "has come to its end here" "a run over existing results" on 2 "$treejet" run "$pvp" --quiet --out few
 if [ -w /dev/full ]; then
   mkdir full && ln -s /dev/full full/statdat.dat
   ends 4 "writing failed" "a full disk on the first rank" on 3 "$treejet" run "$pvp" --quiet --out full --force
