@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "forces/multirate/history.hpp"
 #include "integrators/run/scheme_registry.hpp"
@@ -130,9 +131,10 @@ class WorkPrecision {
   }
 
   /// Order of a scheme with fixed steps, from the shortest steps whose error is small enough to fall in
-  /// proportion and large enough to be no error of the reference. Where events lie in their steps makes
-  /// single errors scatter, so the steps are spaced closely, half an octave, and a line is laid through up to
-  /// five octaves; where its slope is uncertain by more than the 0.15 allowed, twice its standard error is.
+  /// proportion and large enough to be no error of the reference, nor an epsilon of the way a step. Where
+  /// events lie in their steps makes single errors scatter, so the steps are spaced closely, half an octave,
+  /// and a line is laid through up to five octaves; where its slope is uncertain by more than the 0.15
+  /// allowed, twice its standard error is.
   void fixed(const Case& c, const Reference& reference, Scheme scheme, EventRule events) {
     const Method method{.scheme = scheme, .events = events};
     const int order = stepper<1>(scheme)->order(), expected = events == EventRule::step ? 1 : order;
@@ -143,7 +145,9 @@ class WorkPrecision {
       Method m = method;
       m.timestep = dt;
       const double error = run(c, reference, m);
-      if (error < largest && error > smallest) points.push_back({dt, error});
+      const double round_off =
+          c.p.final_time / dt * std::numeric_limits<double>::epsilon() * reference.by_verner.x();
+      if (error < largest && error > std::max(smallest, 10 * round_off)) points.push_back({dt, error});
     }
     constexpr std::size_t fit = 11, fewest = 5;
     if (points.size() > fit) points.erase(points.begin(), points.end() - fit);

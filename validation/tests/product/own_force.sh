@@ -33,8 +33,8 @@ awk -F, 'NR > 1 && $3 == 1 { if (n++ && $NF <= last) bad = 1; last = $NF } END {
 drag_x=$(awk '!/^#/ {x = $2} END {print x}' whole/statdat.dat) plain_x=$(awk '!/^#/ {x = $2} END {print x}' plain/statdat.dat)
 awk "BEGIN { exit !($drag_x < $plain_x) }" || fail "drag does not hold the jet back: $drag_x, $plain_x"
 
-run --out parts --walltime 0.05 --quiet >out 2>err
-code=$?; [ $code -eq 75 ] || fail "a run of 0.05 s is stopped: $code"
+run --out parts --walltime 0.002 --quiet >out 2>err
+code=$?; [ $code -eq 75 ] || fail "a run of 0.002 s is stopped: $code"
 "$stock" run --resume parts >out 2>err
 [ $? -eq 2 ] || fail "stock physics must not go on with this run"
 says err "resume it with the program that began it"
