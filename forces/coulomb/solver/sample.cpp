@@ -138,11 +138,14 @@ void CoulombSample::sum_directly(const TreeField& tree, const Spread& all, Threa
   const FieldArrays<3> E = {sums.data(), sums.data() + sampled, sums.data() + 2 * sampled};
   borders = sharing.borders({0, sampled_leaves}, 1);
   const int begin = borders[index(sharing.rank())], end = borders[index(sharing.rank() + 1)];
+  const CellPoints points = {{x.data(), y.data(), z.data()}, q.data(), 0, 0};
   for_each_task(threads, end - begin, [&](int task) {
     const int s = begin + task, k = s - first_;
     const bool own = k >= 0 && k < static_cast<int>(leaves_.size());
     const Rows same = own ? cells.leaf_points(leaves_[index(k)]) : Rows{};
-    const CellPoints target = {{x.data(), y.data(), z.data()}, q.data(), s * leaf, own ? same.size() : leaf};
+    CellPoints target = points;
+    target.first = s * leaf;
+    target.count = own ? same.size() : leaf;
     const CellRange sources[] = {{sampled, sampled + same.first},
                                  {target.first, target.first + same.size()},
                                  {sampled + same.last, sampled + n}};
