@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "core/base/error.hpp"
+#include "core/base/lines.hpp"
 #include "core/base/version.hpp"
 #include "core/observe/progress.hpp"
 #include "forces/coulomb/coulomb.hpp"
@@ -17,7 +18,6 @@
 #include "validation/support/installation.hpp"
 #include "validation/support/machine.hpp"
 #include "validation/support/scaling_run.hpp"
-#include "validation/support/shell.hpp"
 #include "validation/support/studies.hpp"
 
 namespace {
@@ -87,8 +87,8 @@ bool publish(const std::string& directory) {
   std::fflush(stdout);
   return std::system(
              fmt::format("/usr/bin/python3 {} {}",
-                         treejet::shell_word(treejet::source_tree() + "/validation/pictures/report.py"),
-                         treejet::shell_word(directory))
+                         treejet::for_shell(treejet::source_tree() + "/validation/pictures/report.py"),
+                         treejet::for_shell(directory))
                  .c_str()) == 0;
 }
 

@@ -67,10 +67,10 @@ class Relations {
                    fmt::format("expected {} collector distance ({} cm)", flows ? "less than" : "at most",
                                p_.collector_distance));
     if (p_.resolution && !divides(*p_.resolution)) return;
-    const bool as_points = is_given("points"), as_resolution = is_given("resolution");
-    if (as_points == as_resolution) return;
-    const std::string_view division = as_points ? "points" : "resolution";
-    const double l_step = as_points ? length / p_.points.value_or(1) : p_.resolution.value_or(length);
+    const std::optional<double> element = element_length();
+    if (!element) return;
+    const std::string_view division = is_given("points") ? "points" : "resolution";
+    const double l_step = *element;
     note(l_step < radius * (1 - round_off), division,
          fmt::format(
              "elements ({:.6g} cm) are shorter than nozzle cross ({} cm); the model takes them for slender, "
@@ -109,9 +109,9 @@ class Relations {
           "expected coulomb direct in system 1, which has no tree");
     error(tree && p_.cutoff.has_value(), {"coulomb", "cutoff"},
           "expected no cutoff: the tree sums over all pairs");
-    for (const char* detail : {"coulomb accuracy", "coulomb order", "coulomb opening", "coulomb leaf",
-                               "coulomb tree", "coulomb expansions"})
-      note(!tree && is_given(detail), detail, "no effect without coulomb tree or coulomb auto");
+    only_with(tree, "coulomb tree or coulomb auto",
+              {"coulomb accuracy", "coulomb order", "coulomb opening", "coulomb leaf", "coulomb tree",
+               "coulomb expansions"});
   }
 
   void self_field() {
@@ -123,20 +123,18 @@ class Relations {
          "the paper's rule of insertion lets its rate follow from the push of the nozzle's charge on the "
          "first bead: with slender it depends on the length of the elements more, not less; feed flow does "
          "not let it");
-    if (!sound("initial length") || (!is_given("points") && !is_given("resolution"))) return;
-    const double l_step =
-        is_given("points") ? p_.initial_length / p_.points.value_or(1) : p_.resolution.value_or(0);
-    note(l_step < 2 * p_.nozzle_cross * (1 - round_off), "self field",
+    const std::optional<double> l_step = element_length();
+    note(l_step && *l_step < 2 * p_.nozzle_cross * (1 - round_off), "self field",
          fmt::format(
              "elements ({:.6g} cm) are shorter than twice nozzle cross ({} cm): too short for a slender "
              "tube, its self-field is limited",
-             l_step, p_.nozzle_cross));
+             l_step.value_or(0), p_.nozzle_cross));
   }
 
   void refinement() {
-    for (const char* detail : {"dynamic refinement tolerance", "dynamic refinement threshold",
-                               "dynamic refinement every", "dynamic refinement start"})
-      note(!p_.refinement && is_given(detail), detail, "no effect without dynamic refinement yes");
+    only_with(p_.refinement, "dynamic refinement yes",
+              {"dynamic refinement tolerance", "dynamic refinement threshold", "dynamic refinement every",
+               "dynamic refinement start"});
     if (!p_.refinement) return;
     error(!is_given("dynamic refinement tolerance") && !is_given("dynamic refinement threshold"),
           {"dynamic refinement"},
@@ -151,16 +149,14 @@ class Relations {
     note(p_.self_field == SelfField::point && p_.density_charge != 0, "dynamic refinement",
          "halving the elements of a chain of point charges changes the force on it; write self field "
          "slender for one that does not depend on them");
-    if (!p_.refinement_threshold || !sound("initial length")) return;
-    if (is_given("points") == is_given("resolution")) return;
-    const double l_step =
-        is_given("points") ? p_.initial_length / p_.points.value_or(1) : p_.resolution.value_or(0);
-    const double least = 2 * std::max(l_step, p_.nozzle_cross);
+    const std::optional<double> l_step = element_length();
+    if (!p_.refinement_threshold || !l_step) return;
+    const double least = 2 * std::max(*l_step, p_.nozzle_cross);
     error(*p_.refinement_threshold < least * (1 - round_off),
           {"dynamic refinement threshold", "nozzle cross"},
           fmt::format("expected at least {:.6g} cm, twice the length ({:.6g} cm) of an element as the nozzle "
                       "lets it go and twice nozzle cross ({} cm)",
-                      least, l_step, p_.nozzle_cross));
+                      least, *l_step, p_.nozzle_cross));
   }
 
   void feed() {
@@ -187,8 +183,7 @@ class Relations {
     error(p_.perturb && !is_given("perturb ampl"), {"perturb"}, "expected perturb ampl to be given, too");
     error(p_.perturb && p_.perturb_amplitude > p_.initial_length, {"perturb ampl", "initial length"},
           fmt::format("expected at most initial length ({} cm)", p_.initial_length));
-    for (const char* detail : {"perturb freq", "perturb ampl"})
-      note(!p_.perturb && is_given(detail), detail, "no effect without perturb yes");
+    only_with(p_.perturb, "perturb yes", {"perturb freq", "perturb ampl"});
     const bool of_paper = p_.surface_model == SurfaceModel::paper;
     note(p_.system == 1 && p_.surface_tension > 0 && of_paper, "surface tension",
          "no effect in system 1 without surface tension model energy");
@@ -278,12 +273,11 @@ class Relations {
   }
 
   void drag() {
-    constexpr const char* details[] = {"airdrag airdensity", "airdrag airviscosity", "airdrag airvelocity",
-                                       "airdrag model",      "airdrag lift",         "airdrag amplitude"};
     error(p_.system == 4 && is_given("airdrag") && !p_.airdrag, {"system", "airdrag"},
           "expected airdrag yes, which system 4 means, or system 3");
-    for (const char* detail : details)
-      note(!in_air(p_) && is_given(detail), detail, "no effect without airdrag yes");
+    only_with(in_air(p_), "airdrag yes",
+              {"airdrag airdensity", "airdrag airviscosity", "airdrag airvelocity", "airdrag model",
+               "airdrag lift", "airdrag amplitude"});
     const bool full = in_air(p_) && p_.drag_model == DragModel::full;
     note(full && p_.system == 1, "airdrag model", "in system 1 there is drag along the jet only");
     note(
@@ -296,8 +290,7 @@ class Relations {
   void randomness() {
     error(p_.noise && !is_given("noise diffusivity"), {"noise"},
           "expected noise diffusivity to be given, too");
-    for (const char* detail : {"noise diffusivity", "noise variance"})
-      note(!p_.noise && is_given(detail), detail, "no effect without noise yes");
+    only_with(p_.noise, "noise yes", {"noise diffusivity", "noise variance"});
     const bool white = p_.integrator == Scheme::sra1;
     note(is_given("noise interval") && (white || !is_random(p_)), "noise interval",
          white ? "no effect: the noise of integrator sra1 is white" : "no effect: nothing here is random");
@@ -312,11 +305,11 @@ class Relations {
 
   void evaporation() {
     const bool dries = p_.evaporation, by_vapour = p_.evaporation_model == EvaporationModel::vapour;
-    for (const char* detail : {"evaporation model", "evaporation polymer frac", "evaporation solvent",
-                               "evaporation temperature", "evaporation humidity", "evaporation diffusivity",
-                               "evaporation airviscosity", "evaporation vapour density", "evaporation chi",
-                               "evaporation bconstant", "evaporation mconstant", "evaporation tconstant"})
-      note(!dries && is_given(detail), detail, "no effect without evaporation yes");
+    only_with(dries, "evaporation yes",
+              {"evaporation model", "evaporation polymer frac", "evaporation solvent",
+               "evaporation temperature", "evaporation humidity", "evaporation diffusivity",
+               "evaporation airviscosity", "evaporation vapour density", "evaporation chi",
+               "evaporation bconstant", "evaporation mconstant", "evaporation tconstant"});
     if (!dries) return;
     error(!is_given("evaporation polymer frac"), {"evaporation"},
           "expected evaporation polymer frac to be given, too");
@@ -346,8 +339,8 @@ class Relations {
   }
 
   void output() {
-    for (const char* detail : {"print xyz maxnum", "print xyz rescale"})
-      note(!p_.print_xyz && is_given(detail), detail, "no effect without print xyz and an interval");
+    only_with(p_.print_xyz.has_value(), "print xyz and an interval",
+              {"print xyz maxnum", "print xyz rescale"});
     interval("print time", p_.print_time);
     interval("print xyz", p_.print_xyz);
     interval("print hdf5", p_.print_hdf5);
@@ -434,6 +427,20 @@ class Relations {
   const Given* find(std::string_view words) const { return treejet::find(given_, directive(words)); }
 
   bool is_given(std::string_view words) const { return find(words) != nullptr; }
+
+  /// Of the initial jet, cm; none if its lines are faulty, or divide it twice or not at all.
+  std::optional<double> element_length() const {
+    if (is_given("points") == is_given("resolution") || !sound("initial length")) return std::nullopt;
+    if (is_given("resolution")) return sound("resolution") ? p_.resolution : std::nullopt;
+    if (!sound("points")) return std::nullopt;
+    return p_.initial_length / p_.points.value_or(1);
+  }
+
+  /// Details of what a deck may leave off.
+  void only_with(bool on, const char* that, std::initializer_list<const char*> details) {
+    for (const char* detail : details)
+      note(!on && is_given(detail), detail, fmt::format("no effect without {}", that));
+  }
 
   bool sound(std::string_view words) const {
     const Given* g = find(words);

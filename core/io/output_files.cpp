@@ -54,10 +54,6 @@ constexpr OutputFileKind table[] = {
 
 }  // namespace
 
-std::span<const OutputFileKind> output_file_kinds() {
-  return table;
-}
-
 std::vector<OutputFileKind> output_files(const Parameters& p) {
   std::vector<OutputFileKind> files;
   std::copy_if(std::begin(table), std::end(table), std::back_inserter(files),

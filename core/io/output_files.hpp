@@ -2,7 +2,6 @@
 /// The files of a run, one row each: what a deck asks for them with, and how large they grow. Who makes them
 /// is core/observe/outputs.cpp, who recognises them again core/commands/file_info.cpp.
 
-#include <span>
 #include <vector>
 
 #include "core/jet/parameters.hpp"
@@ -16,10 +15,8 @@ struct OutputFileKind {
   double (*bytes)(const Parameters& p, double points);
 };
 
-/// The table; the record of the run, which stands beside any other, is its last row.
-std::span<const OutputFileKind> output_file_kinds();
-
-/// The rows that a deck asks for.
+/// The rows of the table that a deck asks for; the record of the run, which stands beside any other, is the
+/// last.
 std::vector<OutputFileKind> output_files(const Parameters& p);
 
 }  // namespace treejet

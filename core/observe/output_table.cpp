@@ -43,10 +43,14 @@ void StatFile::visit(Archive& state) {
   for (const std::string& line : changes_) file_.write(fmt::format("## from here on --set \"{}\"\n", line));
 }
 
-void StatFile::row(const std::vector<double>& values) {
+std::string row_text(const std::vector<double>& values) {
   std::string line;
   for (double v : values) line += fmt::format("{:>24.16e}", v);
-  file_.write(line + "\n");
+  return line + "\n";
+}
+
+void StatFile::row(const std::vector<double>& values) {
+  file_.write(row_text(values));
 }
 
 void StatFile::remark(const std::string& text) {

@@ -27,6 +27,9 @@ std::vector<std::string> labels(const std::vector<std::string>& keys, const OwnO
   return all;
 }
 
+/// A row of statdat.dat.
+std::string row_text(const std::vector<double>& values);
+
 class StatFile final : public RowSink {
  public:
   /// The changes of a deck since the rows that are there already are told where its rows begin.

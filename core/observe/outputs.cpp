@@ -18,17 +18,11 @@ namespace treejet {
 
 namespace {
 
-Material material(const Parameters& p, const OutputSetting& setting) {
-  return {viscous_stress(p), setting.added};
-}
-
 template <int D>
 std::unique_ptr<Recorder<D>> recorder(const Parameters& p, const Nozzle<D>& nozzle,
                                       const Collector& collector, const OutputSetting& setting) {
-  const Scales s = scales(p);
-  return std::make_unique<Recorder<D>>(typename Recorder<D>::Setting{
-      nozzle, collector, s, p.nozzle_cross, p.collector_distance, print_interval(p) / s.time,
-      p.final_time / s.time, setting.force_error, material(p, setting)});
+  return std::make_unique<Recorder<D>>(
+      Recorder<D>::setting(p, nozzle, collector, setting.force_error, setting.added));
 }
 
 /// The rows of traj.h5: the time, and what else `print list` asks for.
@@ -126,8 +120,8 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
   }
   if (hdf5) {
     using Frames = Hdf5Trajectory<D>;
-    const typename Frames::Setting frames{nozzle, s, p.nozzle_cross, *p.print_hdf5 / s.time,
-                                          material(p, setting)};
+    const typename Frames::Setting frames{
+        nozzle, s, p.nozzle_cross, *p.print_hdf5 / s.time, {viscous_stress(p), setting.added}};
     watch("traj.h5", std::make_unique<Frames>(frames, hdf5), decomposition);
   }
   if (!files_.empty()) keep_record(setting);

@@ -9,6 +9,23 @@
 namespace treejet {
 
 template <int D>
+typename Recorder<D>::Setting Recorder<D>::setting(const Parameters& p, const Nozzle<D>& nozzle,
+                                                   const Collector& collector,
+                                                   const FieldErrorReport* force_error,
+                                                   const Columns& added) {
+  const Scales s = scales(p);
+  return {nozzle,
+          collector,
+          s,
+          p.nozzle_cross,
+          p.collector_distance,
+          print_interval(p) / s.time,
+          p.final_time / s.time,
+          force_error,
+          {viscous_stress(p), added}};
+}
+
+template <int D>
 Recorder<D>::Recorder(const Setting& setting)
     : Sampling<D>(setting.interval),
       setting_(setting),

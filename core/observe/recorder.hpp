@@ -36,6 +36,10 @@ class Recorder final : public Sampling<D> {
     Material material = {};
   };
 
+  /// What a deck asks for, of a scene with these columns in its state.
+  static Setting setting(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
+                         const FieldErrorReport* force_error, const Columns& added);
+
   explicit Recorder(const Setting& setting);
 
   /// Sends the keys' values, and behind them a caller's own, to the sink at every row. Without a sink the

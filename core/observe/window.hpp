@@ -98,15 +98,13 @@ class Statistics {
   void arrival(const Jet<D>& jet) {
     const bool alone = jet.size() == 1;
     const Vec<D> upper = alone ? nozzle_.position(jet.t) : position<D>(jet.y, 1);
-    const Vec<D> upper_velocity = alone ? nozzle_.velocity(jet.t) : velocity<D>(jet.y, 1);
-    const Vec<D> d = position<D>(jet.y, 0) - upper, v = velocity<D>(jet.y, 0);
-    const double l = d.norm();
+    const double l = (position<D>(jet.y, 0) - upper).norm();
     ++window_.arrivals;
     window_.charge_out += jet.charge[0];
     const double left = material_.template remaining<D>(jet.y, 0);
     window_.mass_out += jet.mass[0] * left;
-    window_.speed += jet.mass[0] * v.norm();
-    window_.strain_rate += jet.mass[0] * (v - upper_velocity).dot(d) / (l * l);
+    window_.speed += jet.mass[0] * velocity<D>(jet.y, 0).norm();
+    window_.strain_rate += jet.mass[0] * strain_rate<D>(jet, nozzle_, 0);
     const double volume = alone ? nozzle_.volume_of_youngest(jet) : jet.volume[0];
     window_.radius += jet.mass[0] * std::sqrt(volume * left * nozzle_.l_step() / l);
     charge_landed_ += jet.charge[0];

@@ -34,7 +34,6 @@ class ChainDecomposition final : public Decomposition<3> {
 
   /// The rows that are this rank's own.
   Rows own() const;
-  bool has_oldest() const { return ranks_.rank() == layout_.holder(0); }
   bool has_youngest() const { return ranks_.rank() == layout_.holder(total() - 1); }
   /// Ranks with the pieces next to this one, towards the collector and towards the nozzle; -1: none.
   int older() const { return neighbour(-1); }

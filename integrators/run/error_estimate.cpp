@@ -30,12 +30,11 @@ bool is_time(const std::string& label) {
 }
 
 bool is_of_wall_clock(const std::string& label) {
-  const std::string key = key_of(label);
-  return observable_key(key) && has(key, wall_clock);
+  return has(key_of(label), wall_clock);
 }
 
 /// Over the second half of the rows, of those that have a value.
-double steady_mean(const TableOfRows& table, std::size_t column) {
+double mean_of_last_half(const TableOfRows& table, std::size_t column) {
   double sum = 0, count = 0;
   for (std::size_t row = table.rows.size() / 2; row < table.rows.size(); ++row) {
     const double value = table.rows[row][column];
@@ -106,19 +105,11 @@ std::optional<TableOfRows> rows_of_run(const Parameters& p, Scene<D>& scene, con
     TableOfRows& table;
   };
   TableOfRows table{labels(p.printstat_list, own), {}};
-  const Scales s = scales(p);
-  Recorder<D> recorder({scene.nozzle,
-                        scene.collector,
-                        s,
-                        p.nozzle_cross,
-                        p.collector_distance,
-                        print_interval(p) / s.time,
-                        p.final_time / s.time,
-                        scene.force_error(),
-                        {viscous_stress(p), scene.columns}});
+  Recorder<D> recorder(
+      Recorder<D>::setting(p, scene.nozzle, scene.collector, scene.force_error(), scene.columns));
   recorder.add(p.printstat_list, std::make_unique<Keep>(table), own);
   Integration<D> integration(p, system(scene), {&recorder}, std::move(stop_here));
-  if (!integration.march.to(p.final_time / s.time)) return std::nullopt;
+  if (!integration.march.to(p.final_time / scales(p).time)) return std::nullopt;
   return table;
 }
 
@@ -152,8 +143,8 @@ std::vector<ErrorOfObservable> errors(const TableOfRows& first, const TableOfRow
     const std::string& label = differences.labels[k];
     if (is_time(label)) continue;
     const auto place = std::find(first.labels.begin(), first.labels.end(), label) - first.labels.begin();
-    all.push_back({label, greatest(differences, k), steady_mean(first, static_cast<std::size_t>(place)),
-                   std::abs(steady_mean(differences, k))});
+    all.push_back({label, greatest(differences, k), mean_of_last_half(first, static_cast<std::size_t>(place)),
+                   std::abs(mean_of_last_half(differences, k))});
   }
   return all;
 }
@@ -170,10 +161,7 @@ std::string rows_text(const TableOfRows& table, const std::string& against) {
   std::string text = "#";
   for (const auto& label : table.labels) text += " " + label;
   text += fmt::format("\n## statdat.dat minus the rows of {}\n", against);
-  for (const auto& row : table.rows) {
-    for (const double value : row) text += fmt::format("{:>24.16e}", value);
-    text += "\n";
-  }
+  for (const auto& row : table.rows) text += row_text(row);
   return text;
 }
 

@@ -5,10 +5,10 @@
 #include <cstdlib>
 
 #include "core/base/error.hpp"
+#include "core/base/lines.hpp"
 #include "core/io/atomic_file.hpp"
 #include "validation/support/installation.hpp"
 #include "validation/support/rank_layout.hpp"
-#include "validation/support/shell.hpp"
 #include "validation/support/studies.hpp"
 
 namespace treejet {
@@ -42,8 +42,8 @@ std::vector<RankLayout> teams(bool quick) {
 void run(const Scene& scene, const RankLayout& layout, const fs::path& results) {
   std::string arguments =
       fmt::format("run {} --quiet --force --out {}",
-                  shell_word(source_tree() + "/validation/decks/stream.dat"), shell_word(results.string()));
-  for (const auto& d : scene.directives) arguments += " --set " + shell_word(d);
+                  for_shell(source_tree() + "/validation/decks/stream.dat"), for_shell(results.string()));
+  for (const auto& d : scene.directives) arguments += " --set " + for_shell(d);
   const std::string line = launch_line(layout, /*pinned*/ false, program_path(), arguments) + " 2>/dev/null";
   if (std::system(line.c_str()) != 0) throw Error(1, "failed: " + line);
 }

@@ -1,5 +1,4 @@
 #include "validation/support/rank_layout.hpp"
-#include "validation/support/shell.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +7,7 @@
 #include <filesystem>
 
 #include "core/base/error.hpp"
+#include "core/base/lines.hpp"
 
 namespace treejet {
 
@@ -34,8 +34,8 @@ std::string environment(const RankLayout& layout, bool pinned) {
 std::string launch_line(const RankLayout& layout, bool pinned, const std::string& program,
                         const std::string& arguments) {
   std::string line = environment(layout, pinned);
-  if (layout.ranks > 1) line += fmt::format("{} -n {} ", shell_word(mpi_launcher()), layout.ranks);
-  return line + fmt::format("{} {}", shell_word(program), arguments);
+  if (layout.ranks > 1) line += fmt::format("{} -n {} ", for_shell(mpi_launcher()), layout.ranks);
+  return line + fmt::format("{} {}", for_shell(program), arguments);
 }
 
 std::string output(const RankLayout& layout, int cores, const std::string& arguments) {

@@ -71,8 +71,11 @@ std::vector<std::vector<double>> recorded(Run<D>& run, const std::vector<std::st
   };
   const Parameters& p = run.parameters;
   std::vector<std::vector<double>> rows;
-  Recorder<D> recorder({run.scene.nozzle, run.scene.collector, run.unit, p.nozzle_cross, p.collector_distance,
-                        window / run.unit.time, end / run.unit.time, run.scene.force_error()});
+  auto setting = Recorder<D>::setting(p, run.scene.nozzle, run.scene.collector, run.scene.force_error(),
+                                      run.scene.columns);
+  setting.interval = window / run.unit.time;
+  setting.end = end / run.unit.time;
+  Recorder<D> recorder(setting);
   recorder.add(keys, std::make_unique<Keep>(rows));
   others.push_back(&recorder);
   run.to(end, others);
