@@ -11,6 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/lines.hpp"
+#include "core/deck/directives.hpp"
 #include "core/io/atomic_file.hpp"
 
 namespace treejet {
@@ -174,9 +175,14 @@ std::string check_record(const Deck& deck, const std::vector<SheetRow>& laborato
   };
   std::vector<std::string> notes;  // they begin with the name of the deck
   for (const std::string& note : deck.notes) notes.push_back(utf8(note));
-  const Json record = {{"format", "treejet check 1"},      {"deck", utf8(deck.name)},
-                       {"overrides", deck.overrides},      {"notes", notes},
-                       {"laboratory", object(laboratory)}, {"plan", object(plan)}};
+  Json values = Json::object();
+  for (const Directive& d : directives())
+    if (const std::string value = value_text(d, deck.parameters); !value.empty())
+      values[std::string(d.words)] = value;
+  const Json record = {
+      {"format", "treejet check 1"}, {"deck", utf8(deck.name)}, {"overrides", deck.overrides},
+      {"directives", values},        {"notes", notes},          {"laboratory", object(laboratory)},
+      {"plan", object(plan)}};
   return record.dump(2);
 }
 

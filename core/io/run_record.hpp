@@ -89,9 +89,11 @@ bool has_completed(const std::filesystem::path& directory);
 std::string run_record_text(const std::filesystem::path& path);
 
 /// What `treejet check --json` prints:
-///     {"format": "treejet check 1", "deck", "overrides": [...], "notes": [...],
+///     {"format": "treejet check 1", "deck", "overrides": [...], "directives": {"viscosity": "20", ...},
+///      "notes": [...],
 ///      "laboratory": {"field": {"value", "unit", "meaning", "warning"}, ...}, "plan": {"steps": {...}, ...}}
-/// A row without unit is a number; meaning and warning are there where the text has them.
+/// Directives are those in force, given or by default, in CGS. A row without unit is a number; meaning and
+/// warning are there where the text has them.
 std::string check_record(const Deck& deck, const std::vector<SheetRow>& laboratory,
                          const std::vector<SheetRow>& plan);
 

@@ -11,6 +11,7 @@ the program's own message and exit code.
 """
 
 from .compare import Difference, compare, difference
+from .converge import Convergence, converge
 from .deck import Deck
 from .errors import FileError, InputError, TreejetError
 from .frames import Frame
@@ -23,7 +24,7 @@ from .sweep import Point, sweep
 from .units import convert
 
 __all__ = [
-    "Deck", "Difference", "FileError", "Frame", "InputError", "Observables", "Point", "Run", "Spectrum", "SteadyMean",
-    "TreejetError", "call", "compare", "convert", "difference", "extend", "find", "read", "run", "spectrum", "steady_mean",
+    "Convergence", "Deck", "Difference", "FileError", "Frame", "InputError", "Observables", "Point", "Run", "Spectrum", "SteadyMean",
+    "TreejetError", "call", "compare", "converge", "convert", "difference", "extend", "find", "read", "run", "spectrum", "steady_mean",
     "steady_means", "sweep",
 ]

@@ -1,4 +1,4 @@
-"""`treejet view|plot|movie|sweep|export`: the program hands these words on to `python3 -m treejet`."""
+"""`treejet view|plot|movie|sweep|converge|export`: the program hands these words on to `python3 -m treejet`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 
 def arguments() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="treejet", description="Looks at runs, and makes many of them.")
-    words = parser.add_subparsers(dest="word", required=True, metavar="view|plot|movie|sweep|export")
+    words = parser.add_subparsers(dest="word", required=True, metavar="view|plot|movie|sweep|converge|export")
 
     def about_run(word: str, what: str, out: str) -> argparse.ArgumentParser:
         command = words.add_parser(word, help=what, description=what)
@@ -38,7 +38,36 @@ def arguments() -> argparse.ArgumentParser:
     sweep.add_argument("--out", metavar="DIR", type=Path, default=Path("sweep"), help="directory (default: sweep)")
     sweep.add_argument("--only", metavar="N", type=positive, help="run point N alone, as a task of a job array; the table is "
                        "made by the same command without --only")
+    budget = words.add_parser("converge", help="Tell how far the steady means of a deck are off", description=
+                              "Runs a deck at finer time steps, Coulomb accuracy and elements, each alone and all together: an "
+                              "error budget of its steady means. Goes on where it was stopped.")
+    budget.add_argument("deck", metavar="DECK", type=Path)
+    budget.add_argument("--quantities", metavar="KEYS", default="",
+                        help="aperture, path, velocity, current, radius, beads or keys of tables, with commas (default: those of "
+                        "the printstat list)")
+    budget.add_argument("--accuracy", metavar="F", type=float, default=0.01, help="relative error that is wanted (default: 0.01)")
+    budget.add_argument("--set", action="append", default=[], metavar="LINE", dest="lines", type=override,
+                        help='a line that overrides the deck, as "flow rate: 60 mL/h"')
+    budget.add_argument("--patience", metavar="X", type=float, default=200,
+                        help="give a run up that takes X times as long as the deck's own (default: 200)")
+    budget.add_argument("--jobs", metavar="J", type=positive, default=1, help="runs side by side, which blurs costs (default: 1)")
+    budget.add_argument("--out", metavar="DIR", type=Path, default=Path("converge"), help="directory (default: converge)")
     return parser
+
+
+def override(text: str) -> "tuple[str, str]":
+    """Directive and value, with a colon between or as a deck has it.
+
+    >>> override("flow rate: 60 mL/h"), override("model slender")
+    (('flow rate', '60 mL/h'), ('model', 'slender'))
+    """
+    from .deck import directive
+
+    name, colon, value = text.partition(":")
+    found = (name.strip(), value.strip()) if colon else directive(text)
+    if not found:
+        raise argparse.ArgumentTypeError("expected a directive and its value")
+    return found
 
 
 def positive(text: str) -> int:
@@ -52,7 +81,8 @@ def main(words: "list[str]") -> int:
     from .errors import TreejetError
 
     try:
-        return {"view": look, "plot": look, "movie": look, "export": look, "sweep": sweep}[options.word](options)
+        return {"view": look, "plot": look, "movie": look, "export": look, "sweep": sweep,
+                "converge": converge}[options.word](options)
     except TreejetError as problem:
         print(f"treejet: {problem}", file=sys.stderr)
         return problem.exit_code
@@ -112,6 +142,21 @@ def sweep(options: argparse.Namespace) -> int:
     if failed:
         print(f"treejet: {len(failed)} of {len(points)} points failed; see the last column of sweep.csv", file=sys.stderr)
     return max((point.exit_code for point in failed), default=0)
+
+
+def converge(options: argparse.Namespace) -> int:
+    from . import converge_write
+    from .converge import converge
+
+    for ahead_of_the_end in (signal.SIGTERM, signal.SIGUSR1):
+        signal.signal(ahead_of_the_end, signal.default_int_handler)
+    quantities = [word.strip() for word in options.quantities.split(",") if word.strip()]
+    found = converge(options.deck, quantities, options.out, options.accuracy, options.jobs, lambda line: print(line, flush=True),
+                     options.patience, **dict(options.lines))
+    print(converge_write.text(found))
+    for path in converge_write.write(found, options.out):
+        print(f"wrote {path}")
+    return 0
 
 
 if __name__ == "__main__":

@@ -132,9 +132,11 @@ class Stop:
 def sweep(deck: Union[str, "os.PathLike[str]"],
           vary: Union[Mapping[str, Sequence[object]], Sequence[Mapping[str, object]]],
           out: Union[str, "os.PathLike[str]"] = "sweep", jobs: int = 1,
-          told: Optional[Callable[[str], None]] = None, only: Optional[int] = None) -> "list[Point]":
+          told: Optional[Callable[[str], None]] = None, only: Optional[int] = None,
+          walltime: Optional[float] = None) -> "list[Point]":
     """Runs the grid of `vary`, or the points of a list of dicts, `jobs` at a time; returns all points, or the one with the
-    number `only`, counted from 1: then other processes run the others, and no table is made.
+    number `only`, counted from 1: then other processes run the others, and no table is made. A point that takes longer than
+    `walltime` seconds is stopped, with a checkpoint, and has failed.
 
     InputError if `out` holds another sweep. KeyboardInterrupt leaves checkpoints behind, from which the same call goes on.
     """
@@ -151,13 +153,14 @@ def sweep(deck: Union[str, "os.PathLike[str]"],
     points = points if only is None else [points[only - 1]]
     say = told or (lambda line: None)
     threads = max(1, (len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1) // jobs)
+    shared = set.intersection(*(set(setting.items()) for setting in settings)) if len(settings) > 1 else set()
     stop = Stop()
     with ThreadPoolExecutor(jobs) as pool:
-        futures = [pool.submit(_finish, point, source, threads, stop) for point in points]
+        futures = [pool.submit(_finish, point, source, threads, stop, walltime) for point in points]
         try:
             for point, future in zip(points, futures):
                 future.result()
-                values = ", ".join(f"{name} {value}" for name, value in point.values.items())
+                values = ", ".join(f"{name} {value}" for name, value in point.values.items() if (name, value) not in shared)
                 say(f"{point.directory.name}  {values}: {point.message or 'done'}")
         except KeyboardInterrupt:
             stop.ask()
@@ -196,7 +199,7 @@ def _claim(place: Path, deck: str, settings: "list[dict[str, str]]") -> None:
         raise FileError(f"{record}: {problem}") from None
 
 
-def _finish(point: Point, deck: Path, threads: int, stop: Stop) -> None:
+def _finish(point: Point, deck: Path, threads: int, stop: Stop, walltime: Optional[float]) -> None:
     """Runs a point, goes on with it, or leaves it alone; its failure is noted, not raised."""
     if not _is_finished(point):
         if (point.directory / "checkpoint").exists() or (point.directory / "checkpoint.old").exists():
@@ -204,6 +207,8 @@ def _finish(point: Point, deck: Path, threads: int, stop: Stop) -> None:
         else:
             # what an attempt without a checkpoint left is begun anew
             words = program.run_arguments(str(deck), str(point.directory), point.overrides(), threads, force=True)
+        if walltime is not None:
+            words += ["--walltime", f"{walltime:.0f}"]
         done = stop.run([program.find(), *words])
         if done is None:
             point.exit_code, point.message = STOPPED, "not begun"

@@ -12,7 +12,7 @@ class Treejet(CMakePackage):
     version("main", branch="main")
 
     variant("mpi", default=True, description="Ranks")
-    variant("python", default=True, description="treejet view, plot, movie, sweep, export")
+    variant("python", default=True, description="treejet view, plot, movie, sweep, converge, export")
 
     depends_on("c", type="build")
     depends_on("cxx", type="build")
