@@ -78,8 +78,9 @@ std::vector<Index> Spacing<D>::to_split(const Jet<D>& jet) const {
   const Elements e = elements(jet);
   const Index count = std::max<Index>(jet.size() - left_alone, 0);
   const auto may_be_split = [&](Index i) {
+    if (i < 0 || i >= count) return false;
     const double half = e.length[i] / 2;
-    return i >= 0 && i < count && half * half * half >= slender_ * e.volume[i] / 2;
+    return half * half * half >= slender_ * e.volume[i] / 2;
   };
   std::vector<Index> wanted;
   for (Index i = 0; i < count; ++i)
