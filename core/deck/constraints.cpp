@@ -61,11 +61,9 @@ class Relations {
 
   void initial_jet() {
     const double length = p_.initial_length, radius = p_.nozzle_cross;
-    const bool flows = p_.inserting || p_.removing;  // else a jet may reach from nozzle to collector
-    if (flows ? length >= p_.collector_distance : length > p_.collector_distance)
+    if (length > p_.collector_distance)
       return error(true, {"initial length", "collector distance"},
-                   fmt::format("expected {} collector distance ({} cm)", flows ? "less than" : "at most",
-                               p_.collector_distance));
+                   fmt::format("expected at most collector distance ({} cm)", p_.collector_distance));
     if (p_.resolution && !divides(*p_.resolution)) return;
     const std::optional<double> element = element_length();
     if (!element) return;
@@ -112,6 +110,20 @@ class Relations {
     only_with(tree, "coulomb tree or coulomb auto",
               {"coulomb accuracy", "coulomb order", "coulomb opening", "coulomb leaf", "coulomb tree",
                "coulomb expansions"});
+    if (p_.coulomb_law == CoulombLaw::softened) softened_law();
+  }
+
+  void softened_law() {
+    const bool tree = p_.coulomb != CoulombSum::direct;
+    error(tree, {"coulomb law", "coulomb"},
+          "expected coulomb direct, or coulomb law point, which trees have");
+    error(p_.cutoff.has_value(), {"coulomb law", "cutoff"}, "expected no cutoff, or coulomb law point");
+    error(p_.self_field == SelfField::slender,
+          {p_.model == Model::slender ? "model" : "self field", "coulomb law"},
+          "expected coulomb law point: the self-field of a tube completes that law");
+    error(p_.feed == Feed::flow && p_.self_field == SelfField::point, {"coulomb law", "feed"},
+          "expected feed pull, or coulomb law point");
+    note(p_.density_charge == 0, "coulomb law", "no effect: density charge is 0");
   }
 
   void self_field() {
@@ -169,6 +181,9 @@ class Relations {
     error(flow && !is_given("flow rate"), {says_so}, "expected flow rate to be given, too, as 2 mL/h");
     error(!flow && is_given("flow rate"), {"flow rate", "feed"},
           "expected feed flow to be given, too: by feed pull the jet draws what it pulls");
+    note(is_given("dragvel") && (flow || !p_.inserting), "dragvel",
+         flow ? "no effect: by feed flow a bead is released with the velocity of its fluid"
+              : "no effect without inserting yes");
     error(flow && is_given("nozzle velocity"), {"nozzle velocity", "feed", "flow rate"},
           p_.nozzle_cross > 0
               ? fmt::format("expected none: it is {:.6g} cm/s, from flow rate and nozzle cross",
@@ -313,11 +328,12 @@ class Relations {
     if (!dries) return;
     error(!is_given("evaporation polymer frac"), {"evaporation"},
           "expected evaporation polymer frac to be given, too");
-    error(stress_law(p_) != StressLawKind::maxwell || p_.hbfluid || p_.yield_stress > 0 ||
-              p_.solvent_viscosity > 0,
+    const StressLawKind law = stress_law(p_);
+    error((law != StressLawKind::maxwell && law != StressLawKind::kelvin_voigt) || p_.hbfluid ||
+              p_.yield_stress > 0 || p_.solvent_viscosity > 0,
           {"evaporation", "stress law", "kvfluid", "hbfluid", "yield stress", "solvent viscosity"},
-          "expected stress law maxwell without yield stress, hbfluid or solvent viscosity: how the others "
-          "thicken is not modelled");
+          "expected stress law maxwell or kelvin-voigt without yield stress, hbfluid or solvent viscosity: "
+          "how the others thicken is not modelled");
     error(p_.self_field == SelfField::slender, {"evaporation", "self field"}, "expected self field point");
     error(p_.parallel == ParallelData::distributed, {"evaporation", "parallel"},
           "expected parallel replicated");

@@ -208,12 +208,20 @@ class Reader {
       else
         error(f.first, f.first_line, "JETSPIN's, not modelled here{}: {}", count, f.advice);
     }
-    if (later_jetspin_)
-      findings_.notes.push_back(
-          {whole_deck_,
-           "the Coulomb law is that of points, 1/R^2, and beads are released with the paper's dragging "
-           "velocity; "
-           "JETSPIN from 1.21 on means 1/(R + a)^2, and no dragging velocity without dragvel yes"});
+    note_coulomb_law();
+  }
+
+  /// Versions of JETSPIN mean different laws by the same lines: such a deck is told which one it gets.
+  void note_coulomb_law() {
+    const bool named = find(given_, directive("coulomb law")) && find(given_, directive("dragvel"));
+    if (!later_jetspin_ || named) return;
+    const Parameters& p = deck_.parameters;
+    findings_.notes.push_back(
+        {whole_deck_,
+         fmt::format("the Coulomb law is {}, and beads are released {} the paper's dragging velocity; "
+                     "JETSPIN from 1.21 on means coulomb law softened, and dragvel no where it is not given",
+                     p.coulomb_law == CoulombLaw::point ? "point, 1/R^2" : "softened, 1/(R + a)^2",
+                     p.dragvel ? "with" : "without")});
   }
 
   void check_presence() {

@@ -156,6 +156,10 @@ const Directive table[] = {
     {.words = "flow rate", .member = &P::flow_rate, .unit = "cm^3/s", .check = positive,
      .meaning = "volume a time, with feed flow; the velocity at the nozzle follows from it and nozzle cross",
      .instead_of = "nozzle velocity", .absent = "none"},
+    {.words = "dragvel", .member = &P::dragvel,
+     .meaning = "a bead is released with half the velocity of the one before it (the paper's dragging velocity) or, as JETSPIN from "
+                "1.21 on means without this line, with nozzle velocity alone",
+     .since_1_21 = true},
     {.words = "removing", .member = &P::removing, .meaning = "the collector takes beads away", .example = "yes"},
     {.words = "collector distance", .member = &P::collector_distance, .unit = "cm", .check = positive,
      .meaning = "distance of the collector from the nozzle", .mandatory = true, .example = "16."},
@@ -228,6 +232,9 @@ const Directive table[] = {
     {.words = "coulomb", .member = &P::coulomb,
      .meaning = "Coulomb sum: direct over all pairs; by a tree to the accuracy below; auto: whichever is faster",
      .heading = "Coulomb sum"},
+    {.words = "coulomb law", .member = &P::coulomb_law,
+     .meaning = "force between two charges: 1/R^2 (point), or 1/(R + a)^2 with the radius a of the one nearer the nozzle, as in JETSPIN "
+                "from 1.21 on (softened)"},
     {.words = "coulomb accuracy", .member = &P::coulomb_accuracy, .check = below_one,
      .meaning = "relative L2 error of the field that the tree may make; it is measured and kept"},
     {.words = "coulomb order", .member = &P::coulomb_order, .check = an_order,

@@ -29,7 +29,8 @@ using Member =
                  ParallelData Parameters::*, std::optional<bool> Parameters::*, DragModel Parameters::*,
                  Wave Parameters::*, std::vector<double> Parameters::*, SelfField Parameters::*,
                  SurfaceModel Parameters::*, StressLawKind Parameters::*, EvaporationModel Parameters::*,
-                 SolventName Parameters::*, Feed Parameters::*, Model Parameters::*>;
+                 SolventName Parameters::*, Feed Parameters::*, Model Parameters::*, CoulombLaw Parameters::*,
+                 std::string Parameters::*>;
 
 struct Directive {
   std::string_view words;

@@ -4,8 +4,7 @@ namespace treejet {
 
 namespace {
 
-constexpr std::string_view split =
-    "the Coulomb sum is split by the program, see multirate; leave the line out";
+constexpr std::string_view split = "the sum over all pairs is what it approximates; see multirate";
 constexpr std::string_view resumed =
     "a run goes on with treejet run --resume DIR, see checkpoint; leave the line out";
 
@@ -21,13 +20,10 @@ const Foreign table[] = {
     {"dynamic refinement anchor", "refinement", "elements are halved where they are, none is moved", {}, true},
     {"dynamic refinement capacity", "refinement", "there is no upper bound to the number of beads", {}, true},
     {"restart", "restart", resumed, "no"},
-    {"dragvel", "dragging velocity",
-     "beads are always released with the paper's dragging velocity; leave the line out", "yes", false, true},
-    {"primary cutoff", "multiple step", split, {}, false, true},
-    {"maximum displ", "multiple step", split, {}, false, true},
-    {"maximum displacement", "multiple step", split, {}, false, true},
-    {"multiple step", "multiple step", "the Coulomb sum is split by the program; write multirate auto or no", "no",
-     false, true},
+    {"primary cutoff", "multiple step", split, {}, true, true},
+    {"maximum displ", "multiple step", split, {}, true, true},
+    {"maximum displacement", "multiple step", split, {}, true, true},
+    {"multiple step", "multiple step", split, "no", true, true},
     {"lorentz", "magnetic field", "magnetic fields are not modelled; leave the line out", "no", false, true},
     {"magnetic", "magnetic field", "magnetic fields are not modelled; leave the line out", "no", false, true},
     {"mirror", "image charges", "the collector has no image charges; leave the line out", "no", false, true},
@@ -45,9 +41,8 @@ const Foreign table[] = {
 };
 
 constexpr ForeignKey keys[] = {
-    {"vol", "variable volume"}, {"volr", "variable volume"}, {"v", "varying potential"},
-    {"visc", "evaporation"}, {"gc", "evaporation"}, {"evrc", "evaporation"}, {"emfc", "evaporation"},
-    {"mxst", "largest stress"}, {"mxsx", "largest stress"}, {"nms", "multiple step"}, {"erms", "multiple step"},
+    {"v", "varying potential"}, {"mxst", "largest stress"}, {"mxsx", "largest stress"}, {"nms", "multiple step"},
+    {"erms", "multiple step"},
 };
 // clang-format on
 

@@ -38,6 +38,8 @@ constexpr Word<ExpansionKind> expansions[] = {{"local", ExpansionKind::local}, {
 constexpr Word<ParallelData> parallel_data[] = {{"replicated", ParallelData::replicated},
                                                 {"distributed", ParallelData::distributed}};
 constexpr Word<SelfField> self_fields[] = {{"point", SelfField::point}, {"slender", SelfField::slender}};
+constexpr Word<CoulombLaw> coulomb_laws[] = {{"point", CoulombLaw::point},
+                                             {"softened", CoulombLaw::softened}};
 constexpr Word<DragModel> drag_models[] = {{"jetspin", DragModel::jetspin}, {"full", DragModel::full}};
 constexpr Word<StressLawKind> stress_laws[] = {{"maxwell", StressLawKind::maxwell},
                                                {"kelvin-voigt", StressLawKind::kelvin_voigt},
@@ -105,6 +107,9 @@ std::span<const Word<SelfField>> words_of(SelfField) {
 std::span<const Word<Wave>> words_of(Wave) {
   return waves;
 }
+std::span<const Word<CoulombLaw>> words_of(CoulombLaw) {
+  return coulomb_laws;
+}
 std::span<const Word<DragModel>> words_of(DragModel) {
   return drag_models;
 }
@@ -160,6 +165,9 @@ std::string kind(double) {
 std::string kind(int) {
   return "integer";
 }
+std::string kind(const std::string&) {
+  return "file";
+}
 std::string kind(const std::vector<double>&) {
   return "reals";
 }
@@ -181,6 +189,7 @@ std::string expected(const Directive& d) {
   if (text == "real") text = "a real number";
   if (text == "integer") text = "an integer";
   if (text == "reals") text = "real numbers";
+  if (text == "file") text = "the name of a file";
   if (text == "keys") text = "keys of observables";
   return fmt::format("expected {}{}, ", text, d.unit.empty() ? "" : fmt::format(" ({})", d.unit));
 }
@@ -241,6 +250,13 @@ std::string read(const Directive& d, Arguments a, int& target) {
   return read_number(d, a, integer, target);
 }
 
+std::string read(const Directive& d, Arguments arguments, std::string& target) {
+  if (arguments.empty()) return expected(d) + found(arguments);
+  if (arguments.size() > 1) return trailing(arguments);
+  target = arguments[0];
+  return {};
+}
+
 std::string read(const Directive& d, Arguments arguments, std::vector<double>& target) {
   if (arguments.empty()) return expected(d) + found(arguments);
   std::vector<double> numbers(arguments.size());
@@ -294,6 +310,9 @@ std::string text(double value) {
 }
 std::string text(int value) {
   return fmt::format("{}", value);
+}
+std::string text(const std::string& file) {
+  return file;
 }
 std::string text(const std::vector<double>& numbers) {
   return fmt::format("{}", fmt::join(numbers, " "));

@@ -28,6 +28,8 @@
 /// pressures: of water Lowe, J. Appl. Meteorol. 16 (1977) 100, of others Antoine's equation with NIST's
 /// constants.
 
+#include <optional>
+
 #include "core/jet/parameters.hpp"
 
 namespace treejet {
@@ -62,6 +64,11 @@ class Evaporation {
   double coefficient_, least_speed2_, wind_ = 0;
   double B_, m_, t_;
 };
+
+/// That of a deck's fluid, if it dries.
+inline std::optional<Evaporation> drying(const Parameters& p) {
+  return p.evaporation ? std::optional<Evaporation>(p) : std::nullopt;
+}
 
 /// Saturated vapour over the pure solvent: pressure in Pa and density in g/cm^3 at a temperature in K.
 double vapour_pressure(SolventName solvent, double temperature);

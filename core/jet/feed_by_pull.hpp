@@ -9,7 +9,8 @@
 ///
 ///     release  at d = 2 l_step, where s = 1: the held bead becomes row n with stress 0 and half the velocity
 ///              of its predecessor above the nozzle velocity (the paper's dragging velocity), so that the
-///              strain rate of the element below is continuous.
+///              strain rate of the element below is continuous. Without dragging velocity (JETSPIN's from
+///              1.21 on) it has that of the fluid at the nozzle, and the strain rate doubles.
 ///
 /// Source: paper, Sec. "Jet insertion"; the first event is JETSPIN's, the paper tells of the second only.
 
@@ -23,9 +24,10 @@ namespace treejet {
 template <int D>
 class FeedByPull final : public FeedRule<D> {
  public:
-  /// `speed`: of the fluid at the nozzle, along x. `release_waits`: for the end of a step.
-  FeedByPull(double l_step, double speed, bool release_waits)
-      : l_step_(l_step), speed_(speed), release_waits_(release_waits) {}
+  /// `speed`: of the fluid at the nozzle, along x. `release_waits`: for the end of a step. `drags`: whether a
+  /// bead is released with the dragging velocity.
+  FeedByPull(double l_step, double speed, bool release_waits, bool drags = true)
+      : l_step_(l_step), speed_(speed), release_waits_(release_waits), drags_(drags) {}
 
   double overdue(const Jet<D>& jet, const Vec<D>& r, const Vec<D>& nozzle, double) const override {
     return (r - nozzle).norm() - (jet.held ? 2.0 : 1.5) * l_step_;
@@ -53,8 +55,8 @@ class FeedByPull final : public FeedRule<D> {
   Bead<D> release(Jet<D>& jet, const Inlet<D>& inlet, const std::vector<double>& at_birth) const override {
     const Eigen::Index youngest = jet.size() - 1;
     const Vec<D> r = position<D>(jet.y, youngest);
-    Vec<D> v = velocity<D>(jet.y, youngest) / 2;
-    v[0] += speed_ / 2;
+    Vec<D> v = drags_ ? Vec<D>(velocity<D>(jet.y, youngest) / 2) : Vec<D>(Vec<D>::Zero());
+    v[0] += drags_ ? speed_ / 2 : speed_;
     Bead<D> bead(held(jet, r, inlet.position, jet.t).position, v);
     bead.added = at_birth;
     return bead;
@@ -62,7 +64,7 @@ class FeedByPull final : public FeedRule<D> {
 
  private:
   double l_step_, speed_;
-  bool release_waits_;
+  bool release_waits_, drags_;
 };
 
 }  // namespace treejet

@@ -4,6 +4,7 @@
 /// that of its row, and all of its volume is left.
 
 #include "core/jet/columns.hpp"
+#include "core/jet/evaporation.hpp"
 #include "core/jet/nozzle.hpp"
 #include "core/jet/viscous_stress.hpp"
 
@@ -23,12 +24,24 @@ double strain_rate(const Jet<D>& jet, const Nozzle<D>& nozzle, Eigen::Index i) {
 struct Material {
   ViscousStress viscous = {};
   Columns added = {};
+  std::optional<Evaporation> drying = {};
 
   /// All of the stress of element i, scaled.
   template <int D>
   double stress(const Jet<D>& jet, const Nozzle<D>& nozzle, Eigen::Index i) const {
     const double state = jet.y(i, stress_column<D>);
-    return viscous.acts() ? state + viscous(strain_rate<D>(jet, nozzle, i)) : state;
+    if (!viscous.acts()) return state;
+    return state + viscosity_ratio<D>(jet.y, i) * viscous(strain_rate<D>(jet, nozzle, i));
+  }
+
+  /// mu / mu_0 and G / G_0 of element i.
+  template <int D>
+  double viscosity_ratio(const State<D>& y, Eigen::Index i) const {
+    return drying ? drying->viscosity_ratio(concentration<D>(y, i)) : 1;
+  }
+  template <int D>
+  double modulus_ratio(const State<D>& y, Eigen::Index i) const {
+    return drying ? viscosity_ratio<D>(y, i) / drying->relaxation_ratio(concentration<D>(y, i)) : 1;
   }
 
   /// Volume of element i, and mass of its bead, over those at the nozzle.
@@ -40,6 +53,12 @@ struct Material {
       left += added[k].volume * (value - added[k].at_birth);
     }
     return left;
+  }
+
+ private:
+  template <int D>
+  double concentration(const State<D>& y, Eigen::Index i) const {
+    return drying->polymer() / remaining<D>(y, i);
   }
 };
 

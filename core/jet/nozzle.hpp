@@ -90,7 +90,7 @@ class Nozzle {
  private:
   std::shared_ptr<const FeedRule<D>> rule(const Parameters& p) const {
     if (p.feed == Feed::flow) return std::make_shared<FeedByFlow<D>>(l_step_, speed_);
-    return std::make_shared<FeedByPull<D>>(l_step_, speed_, event_rule(p) == EventRule::step);
+    return std::make_shared<FeedByPull<D>>(l_step_, speed_, event_rule(p) == EventRule::step, p.dragvel);
   }
 
   static Vec<D> youngest(const Jet<D>& jet) { return treejet::position<D>(jet.y, jet.size() - 1); }

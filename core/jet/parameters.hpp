@@ -3,11 +3,14 @@
 /// core/deck/deck.cpp binds each to its words, unit, meaning and check. An empty optional means "not given".
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace treejet {
+
+class FieldMap;
 
 enum class Scheme { automatic, euler, heun, rk4, sra1, dopri5, verner6, kencarp5 };
 enum class EventRule { located, step };
@@ -16,6 +19,7 @@ enum class Units { cgs, real };
 enum class CoulombSum { direct, tree, automatic };
 enum class TreeOrder { automatic, chain, space };
 enum class ExpansionKind { local, none };
+enum class CoulombLaw { point, softened };
 enum class SelfField { point, slender };
 enum class SurfaceModel { paper, energy };
 enum class Wave { constant, sine, square, rc, restart, ramp, table, rotating };
@@ -40,12 +44,15 @@ struct CoulombSetting {
 /// How the external field goes with time and place (core/jet/waveform.hpp, forces/terms/external_field.hpp).
 struct FieldSetting {
   Wave field_wave = Wave::constant;
-  std::optional<double> field_frequency;  ///< Hz
-  double field_phase = 0;                 ///< rad
-  std::optional<double> field_time;       ///< of capacitor or ramp, s
-  std::vector<double> field_table;        ///< t, factor, t, factor, ...; s
-  std::vector<double> field_vector;       ///< potentials over collector distance, instead of one along x
-  std::optional<double> field_needle;     ///< tip radius, cm
+  std::optional<double> field_frequency;     ///< Hz
+  double field_phase = 0;                    ///< rad
+  std::optional<double> field_time;          ///< of capacitor or ramp, s
+  std::vector<double> field_table;           ///< t, factor, t, factor, ...; s
+  std::vector<double> field_vector;          ///< potentials over collector distance, instead of one along x
+  std::optional<double> field_needle;        ///< tip radius, cm
+  std::string field_map;                     ///< file; empty: none
+  std::shared_ptr<const FieldMap> map = {};  ///< what is in that file, once somebody has read it
+  std::vector<double> magnetic_field;        ///< uniform, x, y and z, gauss
 };
 
 /// The gas around the jet; that of a room at 20 C and 1 atm where the deck names none.
@@ -123,10 +130,12 @@ struct Parameters : CoulombSetting, FieldSetting, AirSetting, NoiseSetting {
 
   bool gravity = false;
   bool inserting = false;
+  bool dragvel = true;  ///< beads are released with the paper's dragging velocity
   Feed feed = Feed::pull;
   std::optional<double> flow_rate;  ///< cm^3/s, of feed flow
   bool removing = false;
   std::optional<double> cutoff;  ///< cm
+  CoulombLaw coulomb_law = CoulombLaw::point;
 
   bool perturb = false;
   double perturb_frequency = 0;  ///< angular, rad/s

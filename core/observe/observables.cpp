@@ -25,6 +25,12 @@ double stress(const View<D>& v) {
   return v.jet.size() > 0 ? v.material.template stress<D>(v.jet, v.nozzle, 0) : none;
 }
 
+/// Of the volume that the element of the farthest bead had at the nozzle.
+template <int D>
+double left(const View<D>& v) {
+  return v.jet.size() > 0 ? v.material.template remaining<D>(v.jet.y, 0) : none;
+}
+
 template <int D>
 double off_axis(const Jet<D>& jet) {
   return std::hypot(component<D>(jet.y, 0, 1), component<D>(jet.y, 0, 2));
@@ -38,7 +44,7 @@ double rate(const View<D>& v, double amount) {
 
 template <int D>
 double per_arrival(const View<D>& v, double sum) {
-  return v.window.arrivals > 0 ? sum / v.window.mass_out : none;
+  return v.window.arrivals > 0 ? sum / v.window.weight : none;
 }
 
 template <int D>
@@ -63,6 +69,12 @@ void add_state(Entries<D>& o) {
   o["angl"] = [](auto& v) {
     return 2 * std::atan2(off_axis<D>(v.jet), std::abs(component<D>(v.jet.y, 0, 0))) * 180 / std::numbers::pi;
   };
+  o["vol"] = [](auto& v) {
+    const double at_nozzle =
+        std::numbers::pi * v.nozzle_radius * v.nozzle_radius * v.nozzle.l_step() * v.scales.length;
+    return v.jet.size() > 0 ? at_nozzle * v.jet.volume[0] * left(v) : none;
+  };
+  o["volr"] = [](auto& v) { return 1 - left(v); };
   o["mass"] = [](auto& v) { return v.scales.mass; };
   o["q"] = [](auto& v) { return v.scales.charge; };
   o["n"] = [](auto& v) { return double(v.beads + v.jet.held); };
@@ -85,6 +97,10 @@ void add_window(Entries<D>& o) {
   o["svc"] = [](auto& v) { return per_arrival(v, v.window.strain_rate) / v.scales.time; };
   o["rc"] = [](auto& v) { return per_arrival(v, v.window.radius) * v.nozzle_radius; };
   o["rrr"] = [](auto& v) { return per_arrival(v, v.window.radius); };
+  o["visc"] = [](auto& v) { return per_arrival(v, v.window.viscosity) * v.scales.stress * v.scales.time; };
+  o["gc"] = [](auto& v) { return per_arrival(v, v.window.modulus) * v.scales.stress; };
+  o["evrc"] = [](auto& v) { return per_arrival(v, v.window.evaporated); };
+  o["emfc"] = [](auto& v) { return rate(v, v.window.evaporated) * v.scales.mass / v.scales.time; };
   o["lp"] = [](auto& v) { return v.path * v.scales.length; };
   o["rlp"] = [](auto& v) { return v.path * v.scales.length / v.collector_distance; };
   o["cpu"] = [](auto& v) { return v.timing.interval; };

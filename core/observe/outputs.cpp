@@ -121,7 +121,7 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
   if (hdf5) {
     using Frames = Hdf5Trajectory<D>;
     const typename Frames::Setting frames{
-        nozzle, s, p.nozzle_cross, *p.print_hdf5 / s.time, {viscous_stress(p), setting.added}};
+        nozzle, s, p.nozzle_cross, *p.print_hdf5 / s.time, {viscous_stress(p), setting.added, drying(p)}};
     watch("traj.h5", std::make_unique<Frames>(frames, hdf5), decomposition);
   }
   if (!files_.empty()) keep_record(setting);

@@ -22,7 +22,7 @@ typename Recorder<D>::Setting Recorder<D>::setting(const Parameters& p, const No
           print_interval(p) / s.time,
           p.final_time / s.time,
           force_error,
-          {viscous_stress(p), added}};
+          {viscous_stress(p), added, drying(p)}};
 }
 
 template <int D>

@@ -21,8 +21,10 @@ struct Window {
   double charge_in = 0, mass_in = 0;    ///< of the beads placed at the nozzle
   double charge_out = 0, mass_out = 0;  ///< of the beads removed at the collector
   int arrivals = 0;
-  double speed = 0, strain_rate = 0, radius = 0;  ///< sums over arrivals by mass; radius in units of a_0
-  double release_speed = 0, path_length = 0;      ///< integrals over time
+  double weight = 0;  ///< of the arrivals, their mass as they left the nozzle; sums by it:
+  double speed = 0, strain_rate = 0, radius = 0;      ///< radius in units of a_0
+  double evaporated = 0, viscosity = 0, modulus = 0;  ///< mass, mu / mu_0, G / G_0
+  double release_speed = 0, path_length = 0;          ///< integrals over time
 };
 
 template <int D>
@@ -103,6 +105,10 @@ class Statistics {
     window_.charge_out += jet.charge[0];
     const double left = material_.template remaining<D>(jet.y, 0);
     window_.mass_out += jet.mass[0] * left;
+    window_.weight += jet.mass[0];
+    window_.evaporated += jet.mass[0] * (1 - left);
+    window_.viscosity += jet.mass[0] * material_.template viscosity_ratio<D>(jet.y, 0);
+    window_.modulus += jet.mass[0] * material_.template modulus_ratio<D>(jet.y, 0);
     window_.speed += jet.mass[0] * velocity<D>(jet.y, 0).norm();
     window_.strain_rate += jet.mass[0] * strain_rate<D>(jet, nozzle_, 0);
     const double volume = alone ? nozzle_.volume_of_youngest(jet) : jet.volume[0];

@@ -25,6 +25,7 @@
 #include "forces/terms/laws/oldroyd_b.hpp"
 #include "forces/terms/random_force.hpp"
 #include "forces/terms/slender_self_field.hpp"
+#include "forces/terms/softened_coulomb.hpp"
 #include "forces/terms/surface_energy.hpp"
 #include "forces/terms/surface_tension.hpp"
 #include "forces/terms/viscoelastic.hpp"
@@ -81,7 +82,7 @@ class Composer {
     const StressLawKind kind = treejet::stress_law(p_);
     const bool rounded = kind == maxwell && (p_.hbfluid || p_.yield_stress > 0);
     auto law = rounded          ? jetspin_herschel_bulkley()
-               : p_.evaporation ? std::make_unique<DryingMaxwell<D>>(Evaporation(p_))
+               : p_.evaporation ? std::make_unique<DryingStress<D>>(Evaporation(p_), kind == maxwell)
                                 : stress_law_of(kind);
     const char* why = kind != maxwell  ? (p_.kvfluid ? "kvfluid yes" : "stress law")
                       : p_.evaporation ? "evaporation yes"
@@ -103,7 +104,8 @@ class Composer {
     const ViscousStress viscous = viscous_stress(p_);
     add(
         viscous.acts(), "no solvent viscosity",
-        [&] { return std::make_unique<ViscousTension<D>>(g_.L_step, g_.F_ve, viscous); }, "viscous tension");
+        [&] { return std::make_unique<ViscousTension<D>>(g_.L_step, g_.F_ve, viscous, drying(p_)); },
+        "viscous tension");
     add_field();
     add(
         g_.F_g != 0, "no gravity yes", [&] { return std::make_unique<Gravity<D>>(g_.F_g); }, "gravity");
@@ -126,6 +128,10 @@ class Composer {
         "slender self-field");
     add_air();
     add_noise();
+    if (softened() && g_.Q != 0) {
+      terms_.push_back(std::make_unique<SoftenedCoulomb<D>>(g_.Q, section(), p_.inserting, ranks_));
+      composed.push_back({std::string(terms_.back()->name()), "coulomb law softened"});
+    }
     for (auto& force : own.forces) {
       composed.push_back({std::string(force->name()), "the caller's own"});
       terms_.push_back(std::move(force));
@@ -153,7 +159,7 @@ class Composer {
     return rates;
   }
 
-  /// Null without charge, or where the subdomains' own solver adds it.
+  /// Null without charge, where it is softened, or where the subdomains' own solver adds it.
   std::unique_ptr<CoulombForce<D>> coulomb() {
     if (in_pieces()) {
       note(g_.Q != 0, "Coulomb sum of all pieces", "parallel distributed", "density charge is 0");
@@ -163,6 +169,7 @@ class Composer {
       left_out.push_back({"Coulomb sum", "density charge is 0"});
       return nullptr;
     }
+    if (softened()) return nullptr;
     auto force = std::make_unique<CoulombForce<D>>(g_.Q, field_solver());
     composed.push_back({std::string(force->name()), "named by the deck"});
     return force;
@@ -189,6 +196,7 @@ class Composer {
         : p_.cutoff                              ? "cutoff"
         : properties(chosen_scheme(p_)).implicit ? "a scheme that solves for the local terms"
         : g_.Q == 0                              ? "no Coulomb sum"
+        : softened()                             ? "coulomb law softened"
         : p_.evaporation                         ? "masses change with evaporation"
         : p_.refinement && p_.self_field == SelfField::slender
             ? "where unequal elements meet the self-field of several makes one force"
@@ -204,6 +212,8 @@ class Composer {
   Columns columns;
 
  private:
+  bool softened() const { return p_.coulomb_law == CoulombLaw::softened; }
+
   void add_field() {
     const std::array<double, 3> V = field_groups(p_);
     const Waveform wave(p_);

@@ -1,8 +1,12 @@
 #pragma once
 /// Evaporation (core/jet/evaporation.hpp) in the equations of motion: the solvent of each element as a
-/// column, and Maxwell's equation for a fluid that thickens,
+/// column, and Maxwell's equation for a fluid that thickens, or that of the spring of a Kelvin-Voigt element,
 ///
-///     dw/dt = rate of evaporation ,        dsigma/dt = G(c) r - sigma / theta(c) ,   G = mu / theta .
+///     dw/dt = rate of evaporation ,        dsigma/dt = G(c) r - sigma / theta(c) ,   G = mu / theta ,
+///                                          dsigma/dt = G(c) r ,
+///
+/// whose dashpot thickens with mu(c) (forces/terms/viscous_tension.hpp). A spring that stiffens keeps the
+/// stress it has.
 ///
 /// Mass of a bead and volume of its element follow the solvent before any force is evaluated; the solvent
 /// that leaves takes its momentum along, so that it exerts no force. The air rests; an element meets it at
@@ -48,37 +52,41 @@ class SolventColumn final : public ColumnRate<D> {
 };
 
 template <int D>
-class DryingMaxwell final : public StressLaw<D> {
+class DryingStress final : public StressLaw<D> {
  public:
-  explicit DryingMaxwell(const Evaporation& evaporation) : evaporation_(evaporation) {}
-  std::string_view name() const override { return "Maxwell stress of a drying fluid"; }
+  /// `relaxes`: Maxwell's; else the spring.
+  DryingStress(const Evaporation& evaporation, bool relaxes) : evaporation_(evaporation), relaxes_(relaxes) {}
+  std::string_view name() const override {
+    return relaxes_ ? "Maxwell stress of a drying fluid" : "Kelvin-Voigt stress of a drying fluid";
+  }
   bool extrapolates() const override { return false; }
 
   void set(const Chain<D>& c, Rows rows, State<D>& slope) const override {
     for (int i = rows.first; i < rows.last; ++i) {
       const Fluid fluid = fluid_of(c, i);
-      slope(i, stress_column<D>) = fluid.modulus * c.strain_rate[i] - c.stress[i] / fluid.relaxation;
+      slope(i, stress_column<D>) = fluid.modulus * c.strain_rate[i] - c.stress[i] * fluid.relaxation_rate;
     }
   }
   StressDerivative derivative(const Chain<D>& c, int element) const override {
     const Fluid fluid = fluid_of(c, element);
     StressDerivative d;
     d.by_strain_rate[0] = fluid.modulus;
-    d.by_state(0, 0) = -1 / fluid.relaxation;
+    d.by_state(0, 0) = -fluid.relaxation_rate;
     return d;
   }
 
  private:
   struct Fluid {
-    double modulus, relaxation;
+    double modulus, relaxation_rate;
   };
   Fluid fluid_of(const Chain<D>& c, int element) const {
     const double concentration = evaporation_.concentration(c.column(0)[element]);
     const double relaxation = evaporation_.relaxation_ratio(concentration);
-    return {evaporation_.viscosity_ratio(concentration) / relaxation, relaxation};
+    return {evaporation_.viscosity_ratio(concentration) / relaxation, relaxes_ ? 1 / relaxation : 0};
   }
 
   Evaporation evaporation_;
+  bool relaxes_;
 };
 
 }  // namespace treejet

@@ -3,8 +3,14 @@
 namespace treejet {
 
 template <int D>
+double ViscousTension<D>::coefficient(const Chain<D>& c, int i) const {
+  if (!drying_) return coefficient_;
+  return coefficient_ * drying_->viscosity_ratio(drying_->concentration(c.column(0)[i]));
+}
+
+template <int D>
 Vec<D> ViscousTension<D>::tension(const Chain<D>& c, int i) const {
-  return coefficient_ * stress_(c.strain_rate[i]) * c.inverse_length[i] * c.volume[i] *
+  return coefficient(c, i) * stress_(c.strain_rate[i]) * c.inverse_length[i] * c.volume[i] *
          c.tangent.row(i).matrix().transpose();
 }
 
@@ -23,7 +29,7 @@ template <int D>
 void ViscousTension<D>::differentiate(const Chain<D>& c, LocalJacobian<D>& J) const {
   for (int i = 0; i < c.beads; ++i) {
     const Vec<D> t = c.tangent.row(i).matrix().transpose();
-    const double inverse = c.inverse_length[i], rate = c.strain_rate[i], C = coefficient_ * c.volume[i];
+    const double inverse = c.inverse_length[i], rate = c.strain_rate[i], C = coefficient(c, i) * c.volume[i];
     auto& e = J.element[static_cast<std::size_t>(i)];
     const Vec<D> by_rate = C * inverse * stress_.derivative(rate) * t;
     e.tension_by_d += C * stress_(rate) * inverse * inverse *

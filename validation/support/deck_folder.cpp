@@ -64,9 +64,10 @@ void run_deck(const std::string& name, const Parameters& p, double seconds, Resu
   constexpr double windows = 500;
   Run<D> run(p);
   std::vector<std::vector<double>> rows;
-  Recorder<D> recorder({run.scene.nozzle, run.scene.collector, run.unit, p.nozzle_cross, p.collector_distance,
-                        p.final_time / windows / run.unit.time, p.final_time / run.unit.time,
-                        run.scene.force_error()});
+  auto setting = Recorder<D>::setting(p, run.scene.nozzle, run.scene.collector, run.scene.force_error(),
+                                      run.scene.columns);
+  setting.interval = p.final_time / windows / run.unit.time;
+  Recorder<D> recorder(setting);
   recorder.add(keys, std::make_unique<Rows>(rows));
   const std::clock_t started = std::clock();
   const auto over = [&] { return double(std::clock() - started) / CLOCKS_PER_SEC > seconds; };

@@ -145,7 +145,7 @@ inline const std::vector<Broken> broken_decks = {
     {"", "nozzle cross section 5.d-3", {"nozzle cross: given twice, first at jet.dat:12"}},
     {"", "systype 3", {"system: given twice, first at jet.dat:2"}},
     // relations
-    {"initial length 0.02", "initial length 16.", {"initial length 16.: expected less than collector distance (16 cm)"}},
+    {"initial length 0.02", "initial length 16.1", {"initial length 16.1: expected at most collector distance (16 cm)"}},
     {"points 1", "resolution 0.007", {"resolution 0.007: expected a divisor of initial length (0.02 cm)", "0.01 or 0.006666666667"}},
     {"points 1", "resolution 0.03", {"resolution 0.03: expected a divisor", "did you mean 0.02?"}},
     {"points 1", "resolution 1.d-12", {"resolution 1.d-12: expected at most 1e+08 elements"}},
@@ -212,15 +212,17 @@ inline const std::vector<Broken> broken_decks = {
     {"inserting yes", "dynamic refinement yes\ndynamic refinement tolerance 1.d-2", {"expected dynamic refinement every to be given"}, "dynamic refinement yes"},
     {"", "cutoff 1.\ndynamic refinement yes\ndynamic refinement tolerance 1.d-2", {"dynamic refinement yes: expected no cutoff"}, "dynamic refinement yes"},
     {"", "restart yes", {"restart"}},
-    {"", "dragvel no", {"dragvel no: JETSPIN's, not modelled here", "dragging velocity"}},
+    {"", "dragvel on", {"dragvel: expected yes|no, found 'on'"}},
+    {"", "coulomb law soft", {"coulomb law: expected point|softened, found 'soft'; did you mean softened?"}},
+    {"", "coulomb law softened\ncoulomb tree", {"coulomb law softened: expected coulomb direct, or coulomb law point, which trees have"}, "coulomb law softened"},
+    {"", "coulomb law softened\ncutoff 1.", {"coulomb law softened: expected no cutoff, or coulomb law point"}, "coulomb law softened"},
+    {"", "coulomb law softened\nself field slender", {"self field slender: expected coulomb law point"}, "self field slender"},
+    {"", "coulomb law softened\nfeed flow\nflow rate 2 mL/h", {"coulomb law softened: expected feed pull"}, "coulomb law softened"},
     {"", "evaporation yes\nevaporation model vapour", {"expected evaporation polymer frac to be given, too"}, "evaporation yes"},
     {"", "evaporation yes\nevaporation polymer frac 0.1\nevaporation model jetspin\nevaporation solvent dmf", {"expected evaporation model vapour"}, "evaporation solvent dmf"},
     {"", "evaporation yes\nevaporation polymer frac 0.1\nevaporation model vapour\nevaporation solvent dmf", {"expected evaporation diffusivity"}, "evaporation solvent dmf"},
     {"", "evaporation yes\nevaporation polymer frac 0.1\nevaporation model vapour\nstress law oldroyd-b", {"expected stress law maxwell"}, "evaporation yes"},
     {"", "evaporation yes\nevaporation polymer frac 0.1\nevaporation model vapour\nevaporation temperature 20.", {"from 223.15 to 373.15"}, "evaporation temperature 20."},
-    {"", "primary cutoff 5.", {"primary cutoff"}},
-    {"", "maximum displ 5.", {"maximum displ"}},
-    {"", "multiple step every 5", {"multiple step"}},
 };
 // clang-format on
 

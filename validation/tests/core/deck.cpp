@@ -238,9 +238,10 @@ TEST_CASE(
     "A feature that is switched off, or concerns files alone, is one note whatever the number of its lines",
     "[deck]") {
   for (const char* line :
-       {"multiple step no", "restart no", "variable mass no", "dragvel yes", "noise pool 10", "lorentz no",
-        "mirror no", "job time 3600", "print binary 1.d-4 style 3", "printstat binary",
-        "print pdb frame 1.d-3", "print xyz frame 1.d-2", "print rescalexyz", "cutoff points 1000"}) {
+       {"multiple step no", "multiple step yes", "primary cutoff 5.", "maximum displ 5.", "restart no",
+        "variable mass no", "noise pool 10", "lorentz no", "mirror no", "job time 3600",
+        "print binary 1.d-4 style 3", "printstat binary", "print pdb frame 1.d-3", "print xyz frame 1.d-2",
+        "print rescalexyz", "cutoff points 1000"}) {
     INFO(line);
     const Deck deck = parse_deck(altered("", line), name);
     const auto about = [&](const std::string& note) { return note.find(": left out") != std::string::npos; };
@@ -256,21 +257,36 @@ TEST_CASE(
 
 TEST_CASE("Keys of what is not modelled are left out of the tables with a note; others are errors",
           "[deck]") {
-  const Deck deck = parse_deck(sound_deck, name, {"printstat list t vol rc visc"});
+  const Deck deck = parse_deck(sound_deck, name, {"printstat list t mxst rc erms"});
   CHECK(deck.parameters.printstat_list == std::vector<std::string>{"t", "rc"});
   REQUIRE(deck.notes.size() == 2);
-  CHECK(deck.notes[0].find("vol (variable volume), visc (evaporation)") != std::string::npos);
-  CHECK(message(sound_deck, {"printstat list vol"}).find("expected keys of observables") !=
+  CHECK(deck.notes[0].find("mxst (largest stress), erms (multiple step)") != std::string::npos);
+  CHECK(message(sound_deck, {"printstat list mxst"}).find("expected keys of observables") !=
         std::string::npos);
 }
 
-TEST_CASE("A jet may reach from nozzle to collector where no bead is inserted or removed", "[deck]") {
-  const std::vector<std::string> still = {"initial length 16.", "inserting no", "removing no"};
-  CHECK(parse_deck(sound_deck, name, still).parameters.initial_length == 16);
-  CHECK(message(sound_deck, {"initial length 16.", "removing no"}).find("expected less than") !=
+TEST_CASE("A jet may reach from nozzle to collector, and no farther", "[deck]") {
+  CHECK(parse_deck(sound_deck, name, {"initial length 16.", "points 100"}).parameters.initial_length == 16);
+  CHECK(message(sound_deck, {"initial length 17."}).find("expected at most") != std::string::npos);
+}
+
+TEST_CASE("A deck of a later JETSPIN is told in one line which Coulomb law it gets, unless it names it",
+          "[deck]") {
+  const auto told = [](const std::vector<std::string>& lines) {
+    std::vector<std::string> laws;
+    for (const std::string& note : parse_deck(sound_deck, name, lines).notes)
+      if (note.find("the Coulomb law is") != std::string::npos) laws.push_back(note);
+    return laws;
+  };
+  CHECK(told({}).empty());  // of JETSPIN 1.00
+  REQUIRE(told({"multiple step yes"}).size() == 1);
+  CHECK(told({"multiple step yes"})[0].find("point, 1/R^2, and beads are released with the") !=
         std::string::npos);
-  CHECK(message(sound_deck, {"initial length 17.", "inserting no", "removing no"}).find("expected at most") !=
-        std::string::npos);
+  REQUIRE(told({"dragvel no"}).size() == 1);
+  CHECK(told({"dragvel no"})[0].find("released without the paper's dragging velocity") != std::string::npos);
+  REQUIRE(told({"mirror no", "coulomb law softened"}).size() == 1);
+  CHECK(told({"mirror no", "coulomb law softened"})[0].find("softened, 1/(R + a)^2") != std::string::npos);
+  CHECK(told({"multiple step yes", "coulomb law point", "dragvel yes"}).empty());
 }
 
 TEST_CASE("An interval longer than the run is noted, whichever file it is of", "[deck]") {

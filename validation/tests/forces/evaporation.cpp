@@ -26,7 +26,8 @@ double left_after(const Parameters& p, double cm, double speed, double seconds, 
   const Evaporation evaporation(p);
   const Columns columns = {SolventColumn<1>(evaporation).column()};
   const Nozzle<1> nozzle(p, columns);
-  EquationsOfMotion<1> f(nozzle, std::make_unique<DryingMaxwell<1>>(evaporation), {}, nullptr, Threads{1});
+  EquationsOfMotion<1> f(nozzle, std::make_unique<DryingStress<1>>(evaporation, /*relaxes*/ true), {},
+                         nullptr, Threads{1});
   f.add_column(std::make_unique<SolventColumn<1>>(evaporation));
   Jet<1> jet;
   jet.y = State<1>(0, own_columns<1> + 1);
@@ -108,6 +109,64 @@ TEST_CASE(
   CHECK(vapour_pressure(SolventName::water, 293.15) == Approx(2337).epsilon(1e-3));
   // with a step that ends somewhere beyond: what it overshoots is part of that step
   CHECK(left_after(p, 3, 1500, 1e-4, 20000) == Approx(0.06 / 0.9).epsilon(2e-3));
+}
+
+TEST_CASE("A dry Kelvin-Voigt element has spring and dashpot stiffer by JETSPIN's recorded ratios") {
+  Parameters p = drying(EvaporationModel::jetspin);
+  p.kvfluid = true;
+  p.inserting = p.perturb = p.gravity = false;
+  p.density_charge = p.surface_tension = 0;
+  Run<3> run(p);
+  Jet<3>& jet = run.scene.jet;
+  REQUIRE(jet.size() == 1);
+  jet.y(0, velocity_column<3>) = 2;
+  const auto slope_at = [&](double concentration) {
+    jet.y(0, own_columns<3>) = 0.06 / concentration - 0.06;
+    State<3> slope;
+    (*run.scene.motion)(jet, 0, jet.y, slope);
+    return slope;
+  };
+  const State<3> fresh = slope_at(0.06), dry = slope_at(0.9);
+  CHECK(dry(0, stress_column<3>) / fresh(0, stress_column<3>) == Approx(2.93188900).epsilon(1e-8));
+  // tension goes with viscosity and section; the mass falls with the section
+  CHECK(dry(0, velocity_column<3>) / fresh(0, velocity_column<3>) == Approx(43.9783350).epsilon(1e-8));
+}
+
+TEST_CASE(
+    "What arrives dry is told as such at the collector, and its means are those of the beads that arrive") {
+  Parameters p = with_tolerance(drying(EvaporationModel::jetspin, 0.5), 1e-5);
+  p.collector_distance = 0.4;
+  p.vapour_diffusivity = 1e5;  // dry long before it arrives
+  p.final_time = 1.2e-3;
+  const std::vector<std::string> keys = {"evrc", "visc", "gc",  "emfc", "mfc",
+                                         "vc",   "vx",   "vol", "volr", "rc"};
+  Run<3> run(p);
+  const auto rows = recorded(run, keys, 2e-4, p.final_time);
+  const std::vector<double>& last = rows.back();
+  REQUIRE(std::isfinite(last[0]));
+  const double left = 0.5 / 0.9;
+  // the step that passes the cut-off dries on to its end
+  CHECK(last[0] == Approx(1 - left).epsilon(2e-3));
+  CHECK(last[1] == Approx(20 * std::pow(10, 7 * (std::pow(0.9, 0.1) - std::pow(0.5, 0.1)))).epsilon(2e-3));
+  CHECK(last[2] == Approx(last[1] / 20 * 50000 / 1.8).epsilon(2e-3));
+  CHECK(last[3] / (last[3] + last[4]) == Approx(last[0]).epsilon(1e-12));  // the same sums
+  // the farthest bead is the next to arrive, a tenth slower
+  CHECK(last[5] == Approx(last[6]).epsilon(0.2));
+  CHECK(last[7] == Approx(std::numbers::pi * 0.005 * 0.005 * 0.02 * (1 - last[8])).epsilon(1e-12));
+}
+
+TEST_CASE("Without evaporation what is told of it is the fluid of the deck") {
+  Parameters p = with_tolerance(example("pvp"), 1e-5);
+  p.collector_distance = 0.4;
+  p.final_time = 1e-3;
+  Run<3> run(p);
+  const std::vector<double> last =
+      recorded(run, {"evrc", "visc", "gc", "emfc", "volr"}, 2e-4, p.final_time).back();
+  CHECK(last[0] == 0);
+  CHECK(last[1] == Approx(20).epsilon(1e-12));
+  CHECK(last[2] == Approx(50000).epsilon(1e-12));
+  CHECK(last[3] == 0);
+  CHECK(last[4] == 0);
 }
 
 TEST_CASE("Vapour pressures at 25 degrees are those of tables") {
