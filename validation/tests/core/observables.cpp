@@ -248,3 +248,52 @@ TEST_CASE("Keys that tell the wall clock stay out of files that are a function o
   for (const char* key : {"cpu", "cpue", "cpur"}) CHECK(std::count(kept.begin(), kept.end(), key) == 0);
   CHECK(kept.size() == keys.size() - 3);
 }
+
+TEST_CASE("Means over arrivals weigh by mass, and what one bead does not bring the other does") {
+  // both arrive in one window, at 7 cm/s; the second is three times as heavy and comes from a shorter element
+  Parameters p = uniform_motion();
+  Run<3> run(p);
+  run.scene.jet.mass << 1, 3;
+  const auto r = recorded<3>(run, {"vc", "mfc", "chc"}, 0.2, 0.2);
+  REQUIRE(r.size() == 2);
+  CHECK(r[1][0] == Approx(7).margin(1e-9));
+  CHECK(r[1][1] == Approx(4 * run.unit.mass / 0.1).epsilon(1e-9));  // the run ends with the last arrival
+  CHECK(r[1][2] == Approx(2 * run.unit.charge).epsilon(round_off));
+}
+
+TEST_CASE("Charge is fed and lands without steps, and as much as by whole beads in the end") {
+  Parameters p = uniform_motion();
+  p.inserting = true;
+  p.density_charge = 1e-6;  // counted, and too small to push
+  Run<3> run(p);
+  const double window = 1e-3;  // a bead is 43 windows long
+  const auto r = recorded<3>(run, {"fcn", "fcc"}, window, 0.3);
+  // l_step 0.3 cm at 7 cm/s: beads are fed at 7 / 0.3 a second from the start, and land so from the second on
+  for (std::size_t k = 1; k < r.size(); ++k) {
+    CAPTURE(k);
+    CHECK(r[k][0] == Approx(7 / 0.3 * run.unit.charge).epsilon(1e-6));
+    if (double(k) * window > 0.06) CHECK(r[k][1] == Approx(7 / 0.3 * run.unit.charge).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("The largest error of the forces is not their mean one") {
+  Run<3> run(example("pvp"));
+  FieldErrorReport forces;
+  forces.method = "tree", forces.l2 = 1e-6, forces.max = 3e-5;
+  auto setting = Recorder<3>::setting(run.parameters, run.scene.nozzle, run.scene.collector, &forces, {});
+  Recorder<3> recorder(setting);
+  struct Keep final : RowSink {
+    void row(const std::vector<double>& values) override { last = values; }
+    void remark(const std::string&) override { ++remarks; }
+    std::vector<double> last;
+    int remarks = 0;
+  };
+  const auto kept = std::make_shared<Keep>();
+  recorder.add({"ferr", "ferrmax"}, kept);
+  recorder.start(run.jet());
+  CHECK(kept->last == std::vector<double>{1e-6, 3e-5});
+  Jet<3> later = run.jet();
+  later.t = setting.interval;
+  recorder.finish(later);
+  CHECK(kept->remarks == 1);  // the method has not changed since
+}

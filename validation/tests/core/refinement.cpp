@@ -240,3 +240,17 @@ TEST_CASE("Beads of a jet that refines have ids, given at birth and never twice"
   const std::vector<std::int64_t> expected = {9, 10, 11, 19, 12, 13, 14, 15, 16, 17, 18, 20};
   CHECK(std::vector<std::int64_t>(jet.id.begin(), jet.id.end()) == expected);
 }
+
+TEST_CASE("Looks that a deck asks for begin at its start, on their own grid") {
+  Parameters p = plain_parameters();  // the unit of time is 1 s
+  p.refinement = true;
+  p.refinement_threshold = 2;
+  p.refinement_every = 0.1;
+  p.refinement_start = 0.25;
+  const Spacing<3> spacing(p);
+  CHECK(spacing.next(0) == Approx(0.3).epsilon(1e-14));
+  CHECK(spacing.next(0.3) == Approx(0.4).epsilon(1e-14));
+  CHECK_FALSE(spacing.due(0.2, true));
+  CHECK(spacing.due(0.3, false));
+  CHECK_FALSE(spacing.due(0.35, true));
+}

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <random>
@@ -177,6 +178,9 @@ TEST_CASE("A checkpoint that is not sound is refused, and the older one gives th
   const std::string sound = read_whole(newest);
   std::string damaged = sound;
   damaged[damaged.size() / 2] ^= 1;
+  std::string turned = sound;  // the number behind the title tells the order of bytes
+  const auto order = turned.begin() + static_cast<long>(turned.find('\n')) + 1;
+  std::reverse(order, order + 8);
 
   const std::pair<std::string, std::string> unsound[] = {
       {"", "cut short"},
@@ -184,6 +188,7 @@ TEST_CASE("A checkpoint that is not sound is refused, and the older one gives th
       {sound.substr(0, 30), "cut short"},
       {sound.substr(0, sound.size() - 1), "cut short"},
       {damaged, "damaged"},
+      {turned, "another byte order"},
       {sound + "x", "damaged"},
       {"treejet checkpoint 999\n" + sound, "another version"},
       {"# t[s] x[cm]\n" + sound, "not a checkpoint"}};

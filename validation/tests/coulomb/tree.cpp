@@ -71,6 +71,30 @@ TEST_CASE("Every pair of points is near or far exactly once") {
   }
 }
 
+TEST_CASE("A cell of charges of both signs has its centre among them") {
+  // weighed with their signs, charges that nearly cancel would have a centre anywhere
+  PointSet set;
+  for (int i = 0; i < 16; ++i) set.add({0.5 * i, 0, 0}, i % 2 == 0 ? 1 : -0.99);
+  Cells cells(16, 16);
+  cells.enclose({{set.r[0].data(), set.r[1].data(), set.r[2].data()}, set.q.data(), 0, 16},
+                wide_kernels(default_isa()).reach, {1});
+  // the mean, weighed by size: neighbours differ by a hundredth
+  CHECK(cells.centre(0)[0] == Approx(3.75).margin(0.01));
+  CHECK(cells.radius()[0] == Approx(3.75).margin(0.01));
+}
+
+TEST_CASE("A leaf reaches to its farthest point, however many places of it are empty") {
+  for (const Isa isa : {Isa::plain, default_isa()})
+    for (int n = 1; n <= 20; ++n) {
+      PointSet set;
+      for (int i = 0; i < n; ++i) set.add({100 + 0.1 * i, 50, -70}, 1);
+      const double centre[3] = {100, 50, -70};
+      CAPTURE(n);
+      CHECK(wide_kernels(isa).reach({{set.r[0].data(), set.r[1].data(), set.r[2].data()}, set.q.data(), 0, n},
+                                    centre) == Approx(0.1 * (n - 1)).margin(1e-12));  // 100 * 2^-52 * a few
+    }
+}
+
 TEST_CASE("The critical radius of a cell is larger where points crowd") {
   // two leaves of 16 like charges on a line, eight times as far apart in one as in the other
   PointSet set;

@@ -229,3 +229,68 @@ TEST_CASE("A drying jet moves the same by the scheme that solves for its local t
   // beads whose solvent is gone have a kink there, which a step meets as its tolerance lets it
   CHECK(x(Scheme::kencarp5) == Approx(x(Scheme::verner6)).epsilon(1e-3));
 }
+
+TEST_CASE("The water in the air slows water, and no other solvent") {
+  const auto driving = [](SolventName solvent, double humidity) {
+    Parameters p = drying(EvaporationModel::vapour);
+    p.solvent = solvent;
+    p.humidity = humidity;
+    p.vapour_diffusivity = 0.1;
+    const Evaporation e(p);
+    return e.driving(e.solvent_at_birth());
+  };
+  CHECK(driving(SolventName::water, 0.5) < 0.6 * driving(SolventName::water, 0));
+  CHECK(driving(SolventName::acetone, 0.5) == driving(SolventName::acetone, 0));
+}
+
+TEST_CASE("Flory and Huggins' activity drives the drying, the fluid thickens and relaxes by powers") {
+  Parameters p = drying(EvaporationModel::vapour, 0.2);
+  p.flory_chi = 0.4;
+  p.viscosity_b = 3, p.viscosity_m = 0.5, p.relaxation_t = 1.5;
+  p.vapour_density = 0.01 * p.density_mass;
+  const Evaporation e(p);
+  // phi = 0.2 / (0.2 + 0.2): a = (1 - phi) exp(phi + chi phi^2)
+  CHECK(e.driving(0.2) == Approx(0.01 * 0.5 * std::exp(0.5 + 0.4 * 0.25)).epsilon(1e-14));
+  CHECK(e.viscosity_ratio(0.81) == Approx(std::pow(10, 3 * (0.9 - std::sqrt(0.2)))).epsilon(1e-14));
+  CHECK(e.relaxation_ratio(0.4) == Approx(std::pow(2, 1.5)).epsilon(1e-14));
+}
+
+TEST_CASE("A jet that goes with the wind dries as one at rest in still air") {
+  Parameters p = drying(EvaporationModel::vapour);
+  p.inserting = p.removing = p.perturb = false;
+  const auto rate = [&](double speed, double wind) {
+    Parameters q = p;
+    q.airdrag = wind > 0;
+    q.air_velocity = wind;
+    q.nozzle_velocity = speed;
+    q.points = 2;
+    Run<3> run(q);
+    State<3> slope;
+    (*run.scene.motion)(run.jet(), 0, run.jet().y, slope);
+    return slope(0, own_columns<3>);
+  };
+  // drag counts from wind on, speed through the air alone does for drying
+  CHECK(std::abs(rate(50, 50)) < 0.9 * std::abs(rate(50, 0)));
+}
+
+TEST_CASE("An element dries by the mean speed of its two ends") {
+  const Parameters p = drying(EvaporationModel::vapour);
+  const Evaporation evaporation(p);
+  const Columns columns = {SolventColumn<1>(evaporation).column()};
+  EquationsOfMotion<1> f(Nozzle<1>(p, columns), std::make_unique<DryingMaxwell<1>>(evaporation), {}, nullptr,
+                         Threads{1});
+  f.add_column(std::make_unique<SolventColumn<1>>(evaporation));
+  const auto rate = [&](double below, double above) {
+    Jet<1> jet;
+    jet.y = State<1>(0, own_columns<1> + 1);
+    for (const auto& [x, v] : {std::pair{2., below}, std::pair{1., above}}) {
+      Bead<1> bead{Vec<1>(x), Vec<1>(v)};
+      bead.added = {columns[0].at_birth};
+      append(jet, bead);
+    }
+    State<1> slope;
+    f(jet, 0, jet.y, slope);
+    return slope(0, own_columns<1>);
+  };
+  CHECK(rate(900, 100) == Approx(rate(500, 500)).epsilon(1e-14));
+}

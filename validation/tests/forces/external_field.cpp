@@ -88,6 +88,25 @@ TEST_CASE("JETSPIN's wave behind a capacitor begins each half period anew") {
   CHECK(w(1.2) == Approx(std::exp(-0.2 / 0.3)));
 }
 
+TEST_CASE("Each half period begins where the one before it ends, however its end is rounded") {
+  for (double frequency : {1., 0.7, 3.1, 123.4})
+    for (double phase : {0., 0.3, -2.}) {
+      CAPTURE(frequency, phase);
+      Waveform w(wave(Wave::square, frequency, 1, phase));
+      bool ascending = true, alternating = true;
+      double t = w.smooth_from(0), was = w(0);
+      for (int k = 0; k < 2000; ++k) {
+        const double end = w.smooth_from(t);
+        ascending = ascending && end - t > 0.49 / frequency;
+        alternating = alternating && w(t) == 1 - was;
+        was = w(t);
+        t = end;
+      }
+      CHECK(ascending);
+      CHECK(alternating);
+    }
+}
+
 TEST_CASE("A rotating field leads a free bead on a circle of radius q E / (m omega^2)") {
   const double omega = 2 * pi * 0.8, E = 1.7;
   const Parameters p = wave(Wave::rotating, 0.8);

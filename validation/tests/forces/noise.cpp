@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/base/philox.hpp"
+#include "core/jet/stiffness.hpp"
 #include "forces/terms/random_force.hpp"
 #include "forces/terms/viscoelastic.hpp"
 #include "integrators/schemes/sra1.hpp"
@@ -153,6 +154,78 @@ TEST_CASE(
     CHECK((pushed(scheme, 0.1) - v).middleCols<3>(3).abs().maxCoeff() < 1e-12);
 }
 
+namespace {
+
+using Velocities = Eigen::Array<double, Eigen::Dynamic, 3>;
+
+/// What one unit of time of noise, white or on its clock, gives free beads.
+Velocities pushed(const Noise& noise, bool white, Jet<3> jet) {
+  State<3> next;
+  if (white) {
+    auto f = equations<3>(plain_parameters());
+    jet.slope = slope(f, jet);
+    Sra1<3>(noise, wiener_path(noise.seed)).step(f, jet, jet, 1, next);
+  } else {
+    auto f = equations<3>(plain_parameters(), RandomForce<3>(noise));
+    f.smooth_from(jet.t);
+    next = jet.y + slope(f, jet);
+  }
+  return next.middleCols<3>(velocity_column<3>);
+}
+
+}  // namespace
+
+TEST_CASE("The three components of a push know nothing of each other") {
+  constexpr int n = 20000;
+  Noise noise;
+  noise.diffusivity = 0.5;  // variance 1 in the unit of time
+  noise.interval = 1;
+  for (const bool white : {false, true}) {
+    const Velocities v = pushed(noise, white, free_beads(n, 0));
+    CAPTURE(white);
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < j; ++k)
+        // four standard errors of the mean of a product of two normal numbers
+        CHECK((v.col(j) * v.col(k)).mean() == Approx(0).margin(4 / std::sqrt(double(n))));
+  }
+}
+
+TEST_CASE("A bead is pushed by its own noise, wherever in the jet it has come to stand") {
+  Noise noise;
+  noise.diffusivity = 0.5;
+  noise.interval = 1;
+  const Jet<3> whole = free_beads(5, 0);
+  Jet<3> rest = whole;
+  drop_first<3>(rest);
+  for (const bool white : {false, true})
+    CHECK((pushed(noise, white, whole).bottomRows(4) == pushed(noise, white, rest)).all());
+}
+
+TEST_CASE("The noise of air goes by the inverse mass, what shakes the fluid does not") {
+  Noise noise;
+  noise.diffusivity = 0.25;
+  noise.diffusivity_in_air = 0.5;
+  CHECK(noise.squared_amplitude(1) == Approx(1.5).epsilon(1e-15));
+  CHECK(noise.squared_amplitude(4) == Approx(4.5).epsilon(1e-15));
+}
+
+TEST_CASE("The clock of noise goes on from the end of each interval, however that is rounded") {
+  for (const double interval : {0.1, 0.3, 1. / 7, 1e-3}) {
+    Noise noise;
+    noise.interval = interval;
+    RandomForce<3> force(noise);
+    double t = 0;
+    bool regular = true;
+    for (int k = 1; k <= 3000; ++k) {
+      const double end = force.smooth_from(t);
+      regular = regular && std::abs(end - k * interval) < 1e-9 * interval;
+      t = end;
+    }
+    CAPTURE(interval);
+    CHECK(regular);
+  }
+}
+
 TEST_CASE("White noise by SRA1 is of strong order 1.5 for beads that act on each other") {
   const Parameters p = plain_parameters();
   Noise noise;
@@ -232,4 +305,18 @@ TEST_CASE("A noisy jet has the same bits on any number of threads, and others fo
   ++p.seed;
   const State<3> other = end(1);
   CHECK((other.rows() != one.rows() || (other != one).any()));
+}
+
+TEST_CASE("The noise of a deck is scaled by its units of time and length") {
+  Parameters p = example("pvp");
+  p.noise = true;
+  p.noise_diffusivity = 1e6;
+  p.noise_variance = 400;
+  const Scales s = scales(p);
+  const Noise n = noise(p);
+  CHECK(n.friction == Approx(1e6 / 400 * s.time).epsilon(1e-14));
+  CHECK(n.diffusivity == Approx(1e6 * std::pow(s.time, 3) / (s.length * s.length)).epsilon(1e-14));
+  const Stiffness rates = stiffness(p);  // the clock ticks twenty times in the shorter of the two
+  REQUIRE(rates.bead_interval < rates.relaxation);
+  CHECK(n.interval == Approx(rates.bead_interval / 20 / s.time).epsilon(1e-14));
 }

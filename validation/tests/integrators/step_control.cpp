@@ -41,6 +41,40 @@ TEST_CASE("The first step after an event is the one that the last event of its k
   CHECK(control.proposal(0, 1) == Approx(allowed).epsilon(1e-14));
 }
 
+TEST_CASE("After an event that went easily the next of its kind may begin a tenth longer, no more") {
+  AdaptiveStep control(0.1, 6);
+  control.event(EventKind::removal);
+  REQUIRE(control.accepts(0, control.proposal(0, 1), 0.5));
+  const double first = control.proposal(0, 1);
+  control.event(EventKind::removal);
+  REQUIRE(control.accepts(0, control.proposal(0, 1), 1e-9));
+  control.event(EventKind::removal);
+  CHECK(control.proposal(0, 1) == Approx(1.1 * first).epsilon(1e-14));
+}
+
+TEST_CASE(
+    "A step is accepted with what its scheme's share permits, and does not grow right after a rejection") {
+  for (double share : {1.0, 0.1}) {
+    CAPTURE(share);
+    AdaptiveStep control(0.1, 5, 1, share);
+    CHECK_FALSE(control.accepts(0, 0.1, 1.01 * share));
+    const double h = control.proposal(0, 1);
+    CHECK(h < 0.1);
+    CHECK(control.accepts(0, h, 0.001 * share));
+    CHECK(control.proposal(0, 1) <= h);
+    CHECK(control.accepts(0, h, 0.99 * share));
+  }
+}
+
+TEST_CASE("A fixed step that would end a sliver before its grid goes on to the next place there") {
+  const FixedStep control(0.1);
+  // 3 * 0.1 is a little above 0.3: a run that has come to 0.3 is there
+  CHECK(control.proposal(0.3, 1) == Approx(0.1).epsilon(1e-9));
+  CHECK(control.proposal(0.3 - 1e-12, 1) == Approx(0.1).epsilon(1e-9));
+  CHECK(control.proposal(0.25, 1) == Approx(0.05).epsilon(1e-9));
+  CHECK(control.proposal(0.25, 0.27) == Approx(0.02).epsilon(1e-9));
+}
+
 TEST_CASE("No step is so long that its samples keep the run from looking at signals and the clock") {
   Parameters p = with_tolerance(example("pvp"), 1e-6);
   p.print_xyz = 1e-13;  // steps of case 3 are some 1e-5 s long: 1e8 samples each

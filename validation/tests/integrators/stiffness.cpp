@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
 #include <random>
 
 #include "core/jet/stiffness.hpp"
@@ -282,4 +284,40 @@ TEST_CASE("The estimate of the fastest rate: relaxation in viscous chains, waves
   CHECK(stiffness(pvp(1000, 1, 1e-6)).fastest_rate == Approx(2.5e6).epsilon(0.15));
   CHECK(stiffness(pvp(1000, 1000, 1e-6)).fastest_rate ==
         Approx(100 * std::sqrt(5e7 / 0.839253525)).epsilon(1e-9));
+}
+
+TEST_CASE("The additive pair is taken from twenty steps a bead on, an explicit one below") {
+  // the modulus at which an explicit scheme needs so many steps from bead to bead, by bisection
+  const auto modulus_for = [](double steps) {
+    double low = 1, high = 1e4;
+    for (int k = 0; k < 60; ++k) {
+      const double middle = std::sqrt(low * high);
+      (stiffness(pvp(middle, 1, 1e-6)).stable_steps() < steps ? low : high) = middle;
+    }
+    return high;
+  };
+  CHECK(chosen_scheme(pvp(modulus_for(19), 1, 1e-6)) == Scheme::verner6);
+  CHECK(chosen_scheme(pvp(modulus_for(21), 1, 1e-6)) == Scheme::kencarp5);
+}
+
+TEST_CASE("Stress or drag relaxes between beads if its time is less than half their interval") {
+  CHECK_FALSE(Stiffness{1, 1, 1.9, 0}.relaxes_between_beads());
+  CHECK(Stiffness{1, 1, 2.1, 0}.relaxes_between_beads());
+  CHECK_FALSE(Stiffness{1, 1, 1, 1.9}.relaxes_between_beads());
+  CHECK(Stiffness{1, 1, 1, 2.1}.relaxes_between_beads());
+}
+
+TEST_CASE("An overdamped element relaxes by the quadratic formula, and a tube's own field stiffens it") {
+  Parameters p = pvp(1000, 1, 1e-6);
+  const Scales s = scales(p);
+  const double omega = 2 / s.l_step * std::sqrt(p.elastic_modulus / p.density_mass), damping = 1 / s.time;
+  REQUIRE(damping > 2 * omega);
+  CHECK(stiffness(p).fastest_rate ==
+        Approx((damping + std::sqrt(damping * damping - 4 * omega * omega)) / 2).epsilon(1e-12));
+  p = pvp(1000, 1000, 1e-6);
+  p.self_field = SelfField::slender;
+  const double g = std::log(2 * s.l_step / p.nozzle_cross) - std::numbers::egamma;
+  const double self = s.charge * s.charge / std::pow(s.l_step, 3) * (2 * std::abs(g) + 4.5);
+  const double wave = 4 / (s.l_step * s.l_step) * p.elastic_modulus / p.density_mass;
+  CHECK(stiffness(p).fastest_rate == Approx(std::sqrt(wave + 4 * self / s.mass)).epsilon(1e-12));
 }
