@@ -277,8 +277,8 @@ TEST_CASE("An element dries by the mean speed of its two ends") {
   const Parameters p = drying(EvaporationModel::vapour);
   const Evaporation evaporation(p);
   const Columns columns = {SolventColumn<1>(evaporation).column()};
-  EquationsOfMotion<1> f(Nozzle<1>(p, columns), std::make_unique<DryingMaxwell<1>>(evaporation), {}, nullptr,
-                         Threads{1});
+  EquationsOfMotion<1> f(Nozzle<1>(p, columns), std::make_unique<DryingStress<1>>(evaporation, true), {},
+                         nullptr, Threads{1});
   f.add_column(std::make_unique<SolventColumn<1>>(evaporation));
   const auto rate = [&](double below, double above) {
     Jet<1> jet;
