@@ -42,6 +42,11 @@ const std::vector<Study> studies = {
       treejet::study_performance},
      15,
      40},
+    {"jetspin",
+     "JETSPIN's example decks beside what their authors record",
+     {treejet::study_jetspin_records},
+     0,
+     0},
     {"whipping", "Frequency and wavelength of the whipping", {treejet::study_whipping}, 1, 10},
     {"resolution", "Case 3 with longer and shorter elements", {treejet::study_resolution}, 2, 15},
     {"convergence", "Point charges against the slender self-field", {treejet::study_convergence}, 3, 30},
@@ -130,10 +135,14 @@ int main(int argc, char** argv) {
   app.footer(lesson);
   std::string directory = "results/validation";
   bool quick = false, full = false;
+  std::filesystem::path jetspin_decks;
   const auto add = [&](const std::string& name, const std::string& meaning) {
     auto& command = *app.add_subcommand(name, meaning);
     command.add_option("--out", directory, "directory of tables, pictures and report, made if missing")
         ->capture_default_str();
+    if (name == "all" || name == "jetspin")
+      command.add_option("--decks", jetspin_decks, "folder of JETSPIN's example decks, to judge them, too")
+          ->check(CLI::ExistingDirectory);
     auto* q = command.add_flag("--quick", quick, "fewer and shorter runs");
     command.add_flag("--full", full, "the whole, which is the default")->excludes(q);
   };
@@ -195,6 +204,7 @@ int main(int argc, char** argv) {
     for (const Study& s : studies)
       if (name == "all" || name == s.name) chosen.push_back(s);
     Report report(directory, quick);
+    report.decks = jetspin_decks;
     write_provenance(directory, fmt::format("treejet-validate {}{}", name, quick ? " --quick" : ""));
     return run(chosen, report);
   } catch (const treejet::Error& e) {

@@ -29,7 +29,7 @@ OF_SECTION = {  # tables that have no title of their own: pictures only, each be
     "whipping_axis": "whipping",
 }
 MOST_ROWS = 12  # of a table that is shown unfolded
-VERDICTS = ("holds", "differs, explained", "FAILS")
+VERDICTS = ("holds", "differs, explained", "not judged", "FAILS")
 
 
 def shown(text):

@@ -85,6 +85,11 @@ void Report::differs(const std::string& claim, double found, const Difference& d
   add({"", claim, found, d.low, d.high, d.elsewhere, d.explanation, true});
 }
 
+void Report::not_judged(const std::string& claim, const std::string& why) {
+  const double nothing = std::nan("");
+  add({"", claim, nothing, nothing, nothing, nothing, why, false, /*judged*/ false});
+}
+
 void Report::add(Claim claim) {
   if (!sections_.empty()) claim.section = sections_.back().title;
   claims_.push_back(std::move(claim));
@@ -110,6 +115,10 @@ int Report::conclude() {
   fmt::print("\n=== Claims: verdict, what was found, where it must be\n");
   for (const Claim& c : claims_) {
     checks.row({c.section, c.verdict(), c.text, c.found, c.elsewhere, c.low, c.high, c.remark});
+    if (!c.judged) {
+      fmt::print("  {:<18}  {}: {}\n", c.verdict(), c.text, c.remark);
+      continue;
+    }
     fmt::print("  {:<18}  {:>10.4g} in [{:.4g}, {:.4g}]  {}\n", c.verdict(), c.found, c.low, c.high, c.text);
     if (c.explained) fmt::print("{:>20}  elsewhere {:.4g}: {}\n", "", c.elsewhere, c.remark);
   }

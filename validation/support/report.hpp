@@ -58,7 +58,8 @@ class Report {
   Report(std::filesystem::path directory, bool quick);
 
   const std::filesystem::path& directory() const { return directory_; }
-  const bool quick;  ///< a study that ends within a minute, for the tests
+  const bool quick;                  ///< a study that ends within a minute, for the tests
+  std::filesystem::path decks = {};  ///< folder of JETSPIN's example decks; empty: not at hand
 
   /// What follows belongs to it.
   void section(const Section& section);
@@ -69,6 +70,8 @@ class Report {
   void check(const std::string& claim, double found, double low, double high);
   void compare(const std::string& claim, double found, const Elsewhere& elsewhere);
   void differs(const std::string& claim, double found, const Difference& difference);
+  /// What there is to judge, and why it is not.
+  void not_judged(const std::string& claim, const std::string& why);
   /// One more of `runs` is done: tells now and then how long the rest will take.
   void progress(const std::string& study, int done, int runs);
   /// Prints all claims and writes checks.csv, and sections.csv and tables.csv, which tell what belongs
@@ -80,9 +83,12 @@ class Report {
     std::string section, text;
     double found, low, high, elsewhere;
     std::string remark;  ///< source of the value elsewhere, or why it differs
-    bool explained;
-    bool holds() const { return found >= low && found <= high; }
-    std::string verdict() const { return !holds() ? "FAILS" : explained ? "differs, explained" : "holds"; }
+    bool explained, judged = true;
+    bool holds() const { return !judged || (found >= low && found <= high); }
+    std::string verdict() const {
+      if (!judged) return "not judged";
+      return !holds() ? "FAILS" : explained ? "differs, explained" : "holds";
+    }
   };
   struct Entry {
     std::string section, table, title;

@@ -55,6 +55,9 @@ void study_distributed(Report& report);
 /// Decks and states at the edge of what can be simulated: a right answer or a clear stop.
 void study_extreme_cases(Report& report);
 
+/// JETSPIN's example decks beside what their authors record, where the folder of decks is given.
+void study_jetspin_records(Report& report);
+
 /// The Coulomb field with nothing but the accuracy given; all shapes of the tree against the program's
 /// choice.
 void study_coulomb_accuracy(Report& report);

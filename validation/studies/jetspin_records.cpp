@@ -1,0 +1,186 @@
+/// What JETSPIN's authors record of their example decks, beside our runs of them. The decks are theirs, under
+/// their own licence, and not part of this project: without a folder of them nothing is judged.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "validation/support/run.hpp"
+#include "validation/support/studies.hpp"
+
+namespace treejet {
+
+namespace {
+
+enum Key { n, vn, vc, angl, lp, rc, yz };
+const std::vector<std::string> keys = {"n", "vn", "vc", "angl", "lp", "rc", "yz"};
+
+struct Record {
+  Key key;
+  double low, high;  ///< as recorded, a range where their log shows one
+};
+
+struct Case {
+  std::string deck, source;
+  std::vector<std::string> changes;
+  double until;  ///< s, the mean is over the last part of it
+  std::vector<Record> records;
+};
+
+std::vector<double> steady_means(const Case& c, const std::filesystem::path& folder) {
+  constexpr int windows = 50, settled = 28;
+  std::vector<std::string> lines = {"integrator auto", "tolerance 1.d-5"};
+  lines.insert(lines.end(), c.changes.begin(), c.changes.end());
+  Parameters p = read_deck((folder / (c.deck + ".dat")).string(), lines).parameters;
+  p.final_time = c.until;
+  Run<3> run(p);
+  const auto rows = recorded(run, keys, c.until / windows, c.until);
+  std::vector<double> means(keys.size(), 0);
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    double count = 0;
+    for (std::size_t row = settled; row < rows.size(); ++row)
+      if (std::isfinite(rows[row][k])) means[k] += rows[row][k], ++count;
+    means[k] /= count;
+  }
+  return means;
+}
+
+// Their 1.20 has the Coulomb law of points and the dragging velocity, later versions neither.
+const std::vector<std::string> as_1_20 = {"coulomb law point", "dragvel yes"};
+const std::vector<std::string> as_2_0 = {"coulomb law softened", "dragvel no"};
+
+std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+std::string claim(const Case& c, Key key) {
+  return fmt::format("{} ({}): {}", c.deck, c.source, keys[key]);
+}
+
+/// Within the recorded range, or beyond it by a part that stands in the issue of these decks: their steps,
+/// removal and noise are not ours.
+void judge(const Case& c, const std::vector<double>& found, double beyond, Report& report) {
+  for (const Record& r : c.records)
+    report.check(claim(c, r.key) + fmt::format(", recorded {:.4g} to {:.4g}", r.low, r.high), found[r.key],
+                 r.low * (1 - beyond), r.high * (1 + beyond));
+}
+
+void add_row(const Case& c, const std::vector<double>& found, ResultTable& table) {
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    for (const Record& r : c.records)
+      if (r.key == Key(k)) table.row({c.deck, c.source, keys[k], r.low, r.high, found[k]});
+}
+
+/// Their log prints 1.1165 for the group of the lift: rho_a L_0^2 / m where rho_a L_0^3 / m belongs. Drag and
+/// noise go with rho_a nu^0.81, the lift with rho_a alone: this air has their lift, and the drag of the
+/// other.
+std::vector<std::string> air_with_their_lift(const Parameters& p) {
+  const double factor = 1 / scales(p).length;
+  return {fmt::format("airdrag airdensity {}", p.air_density * factor),
+          fmt::format("airdrag airviscosity {}", p.air_viscosity * std::pow(factor, -1 / 0.81))};
+}
+
+void example_4(const std::filesystem::path& folder, Report& report, ResultTable& table) {
+  const double until = report.quick ? 0.02 : 0.05;
+  Case c{"v1.20-input-4",
+         "log of 1.20",
+         as_1_20,
+         until,
+         {{vn, 226.6, 226.6}, {vc, 2040, 2110}, {angl, 27, 31}, {rc, 4.2e-4, 4.3e-4}}};
+  const std::vector<double> right = steady_means(c, folder);
+  judge(c, right, 0.05, report);
+  add_row(c, right, table);
+  Case theirs = c;
+  const Parameters p = read_deck((folder / (c.deck + ".dat")).string()).parameters;
+  theirs.changes = joined(as_1_20, air_with_their_lift(p));
+  theirs.source = "log of 1.20, lift 1/L_0 times too large as printed there";
+  theirs.records = {{vn, 226.6, 226.6}, {n, 161, 168}};
+  const std::vector<double> lifted = steady_means(theirs, folder);
+  judge(theirs, lifted, 0.01, report);
+  Case calm = c;
+  calm.changes = joined(as_1_20, {"airdrag lift no"});
+  const std::vector<double> without = steady_means(calm, folder);
+  const std::string why =
+      "their log has a lift 28.7 times too large; the right one changes a jet without any by a few per cent";
+  report.differs(claim(c, n), right[n], {164.5, 0.97 * without[n], 1.05 * without[n], why});
+  report.differs(claim(c, lp), right[lp], {265, 0.97 * without[lp], 1.05 * without[lp], why});
+  theirs.records.push_back({lp, 261, 269});
+  theirs.records.push_back({angl, 27, 31});
+  add_row(theirs, lifted, table);
+  c.records = {{n, 161, 168}, {lp, 261, 269}};
+  add_row(c, right, table);
+}
+
+/// Steps, events and releases as theirs, where a run of 1000 steps counts.
+void counts(const std::filesystem::path& folder, Report& report) {
+  struct Count {
+    std::string deck;
+    double beads, inserted;
+    bool removes;
+  };
+  for (const Count& r : {Count{"v2.0b-input-15", 211, 111, false}, Count{"v2.0b-input-16", 89, 111, true},
+                         Count{"v2.0b-input-17", 89, 111, true}}) {
+    const Parameters p =
+        read_deck((folder / (r.deck + ".dat")).string(), joined(as_2_0, {"events step"})).parameters;
+    Run<3> run(p);
+    const Effort effort = run.to(p.final_time);
+    report.compare(r.deck + ": beads inserted by the end", double(effort.placed),
+                   {r.inserted, 0, "its notes"});
+    const double beads = double(run.beads());
+    if (r.removes)
+      report.differs(r.deck + ": beads at the end", beads,
+                     {r.beads, r.beads - 1, r.beads - 1,
+                      "JETSPIN keeps the bead that landed last until the next one lands"});
+    else
+      report.compare(r.deck + ": beads at the end", beads, {r.beads, 0, "its notes"});
+  }
+}
+
+void long_runs(const std::filesystem::path& folder, Report& report, ResultTable& table) {
+  const Case cases[] = {
+      {"v2.0b-input-24",
+       "full run of 2.0 beta",
+       as_2_0,
+       0.04,
+       {{lp, 213.8, 213.8}, {vc, 1960, 1960}, {yz, 3.83, 3.83}, {angl, 26.9, 26.9}, {rc, 3.16e-4, 3.16e-4}}},
+      {"v2.0b-input-25",
+       "full run of 2.0 beta, polymer 0.5",
+       joined(as_2_0, {"evaporation polymer frac 0.5"}),
+       0.04,
+       {{lp, 111.9, 111.9}, {vc, 2534, 2534}, {yz, 2.78, 2.78}, {angl, 19.7, 19.7}, {rc, 2.77e-4, 2.77e-4}}}};
+  const double beads[] = {517, 268};
+  for (int k : {0, 1}) {
+    const std::vector<double> found = steady_means(cases[k], folder);
+    judge(cases[k], found, 0.1, report);
+    add_row(cases[k], found, table);
+    constexpr double threshold = 0.4;
+    report.differs(
+        claim(cases[k], n), found[n],
+        {beads[k], found[lp] / threshold, 2 * found[lp] / threshold,
+         "JETSPIN lays beads anew a threshold apart; halved elements are between half of it and all"});
+  }
+}
+
+}  // namespace
+
+void study_jetspin_records(Report& report) {
+  report.section({"JETSPIN's example decks", "Do they give what their authors record?",
+                  "treejet-validate jetspin --decks DIR, DIR their folder of decks"});
+  if (report.decks.empty()) {
+    for (const char* what : {"v1.20-input-4 (air)", "v2.0b-input-15 to 17 (counts)",
+                             "v2.0b-input-24 (air, noise, refinement)", "v2.0b-input-25 (and evaporation)"})
+      report.not_judged(what, "their decks are no part of this project: --decks DIR");
+    return;
+  }
+  auto table = report.table("jetspin", "JETSPIN's records and our means",
+                            {"deck", "record", "observable", "at least", "at most", "found"});
+  counts(report.decks, report);
+  example_4(report.decks, report, table);
+  const char* const too_long = "takes minutes: without --quick";
+  if (!report.quick) return long_runs(report.decks, report, table);
+  report.not_judged("v2.0b-input-24", too_long);
+  report.not_judged("v2.0b-input-25", too_long);
+}
+
+}  // namespace treejet
