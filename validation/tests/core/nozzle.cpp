@@ -134,3 +134,37 @@ TEST_CASE("A nozzle that circles wider than an element begins by letting a bead 
     CHECK(run.jet().y.isFinite().all());
   }
 }
+
+TEST_CASE("Where events are seen at step ends a held bead keeps its whole charge until its release") {
+  const FeedByPull<3> waiting(1, 0, /*release_waits*/ true), located(1, 0, /*release_waits*/ false);
+  CHECK(waiting.faded_charge(2.3) == 1);
+  CHECK(located.faded_charge(2.3) < 1);  // a step that overshoots is cut there
+  CHECK(waiting.faded_charge(1.75) == located.faded_charge(1.75));
+}
+
+TEST_CASE("A circling nozzle is accelerated towards the middle of its circle") {
+  const Nozzle<3> nozzle(circling());
+  for (double t : {0.0, 0.37, 2.0}) {
+    const Vec<3> expected = -16 * nozzle.position(t);  // omega^2 = 4^2
+    CHECK((nozzle.acceleration(t) - expected).norm() < 1e-15);
+  }
+}
+
+TEST_CASE("A bead that is released by flow has the columns of the element that it is cut from") {
+  Parameters p = circling();
+  p.feed = Feed::flow;
+  p.flow_rate = 0.01;
+  const Nozzle<3> nozzle(p, {Column{.name = "solvent", .unit = "1", .at_birth = 0.9}});
+  Jet<3> jet;
+  jet.y = State<3>(0, own_columns<3> + 1);
+  Bead<3> bead(Vec<3>(1.5, 0, 0));
+  bead.added = {0.3};
+  append<3>(jet, bead);
+  jet.held = true;
+  jet.t = 1.2 / nozzle.feed().flow();  // late by a fifth
+  nozzle.release(jet);
+  REQUIRE(jet.size() == 2);
+  CHECK(jet.y(1, own_columns<3>) == 0.3);
+  // the next bead is due one interval after this one was, not after it was seen
+  CHECK(jet.last_release == Approx(1 / nozzle.feed().flow()).epsilon(1e-14));
+}

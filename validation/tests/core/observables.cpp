@@ -11,6 +11,7 @@
 #include "core/observe/output_table.hpp"
 #include "core/observe/output_xyz.hpp"
 #include "validation/support/run.hpp"
+#include "validation/support/scenes.hpp"
 #include "validation/support/scratch_directory.hpp"
 
 using namespace treejet;
@@ -296,4 +297,50 @@ TEST_CASE("The largest error of the forces is not their mean one") {
   later.t = setting.interval;
   recorder.finish(later);
   CHECK(kept->remarks == 1);  // the method has not changed since
+}
+
+TEST_CASE("The path of a window ends at the nozzle where it is then") {
+  Parameters p = plain_parameters();
+  p.perturb = true;
+  p.perturb_frequency = 2;
+  p.perturb_amplitude = 0.3;
+  const Nozzle<3> nozzle(p);
+  const Collector collector(p);
+  Statistics<3> statistics(nozzle, collector);
+  statistics.follow_path();
+  Jet<3> jet = jet_of<3>({Bead<3>({1, 0.3, 0})});
+  jet.slope.setZero(1, own_columns<3>);
+  SolutionPoint<3> end = jet;
+  end.t = 0.2;
+  statistics.begin_window(0);
+  statistics.integrate(DenseOutput<3>(jet, end), end.t);
+  // a bead at rest beside the place where the nozzle began: the chord of the angle 2 t, by many trapezoids
+  double sum = 0;
+  constexpr int n = 1000;
+  for (int k = 0; k <= n; ++k)
+    sum += (k % n == 0 ? 0.5 : 1) * std::sqrt(1 + 2 * 0.09 * (1 - std::cos(2 * 0.2 * k / n)));
+  CHECK(statistics.window().path_length == Approx(0.2 * sum / n).epsilon(1e-6));  // two of Gauss's points
+}
+
+TEST_CASE(
+    "A bead that has dried arrives with what is left of its mass, the only one with the held one's volume") {
+  Parameters p = plain_parameters();
+  p.inserting = true;
+  p.feed = Feed::flow;
+  p.flow_rate = 0.01;
+  const Columns columns = {Column{.name = "solvent", .unit = "1", .at_birth = 0.9, .volume = 1}};
+  const Nozzle<3> nozzle(p, columns);
+  const Collector collector(p);
+  Statistics<3> statistics(nozzle, collector, {{}, columns});
+  Jet<3> jet;
+  jet.y = State<3>(0, own_columns<3> + 1);
+  Bead<3> bead(Vec<3>(2, 0, 0), Vec<3>(5, 0, 0), 0, 1.5);
+  bead.added = {0.4};  // half of it is left
+  append<3>(jet, bead);
+  jet.held = true;
+  jet.t = 0.6 / nozzle.feed().flow();
+  statistics.event(EventKind::removal, jet);
+  CHECK(statistics.window().mass_out == Approx(1.5 * 0.5).epsilon(round_off));
+  // a^2 / a_0^2 = V l_step / l : 1.6 of volume, half of it left, over twice the length of an element
+  CHECK(statistics.window().radius == Approx(1.5 * std::sqrt(1.6 * 0.5 / 2)).epsilon(round_off));
 }

@@ -254,3 +254,57 @@ TEST_CASE("Looks that a deck asks for begin at its start, on their own grid") {
   CHECK(spacing.due(0.3, false));
   CHECK_FALSE(spacing.due(0.35, true));
 }
+
+namespace {
+
+/// A straight jet of such elements, each bead with half of the two at it.
+Jet<3> straight_jet(const std::vector<double>& volume, double length_of_unit) {
+  Jet<3> jet;
+  double x = 0;
+  for (std::size_t i = volume.size(); i-- > 0;) {
+    x += volume[i] * length_of_unit;
+    Bead<3> bead(Vec<3>(x, 0, 0));
+    bead.volume = volume[i];
+    bead.mass = bead.charge = i > 0 ? (volume[i - 1] + volume[i]) / 2 : volume[0];
+    append<3>(jet, bead);
+  }
+  Jet<3> turned = jet;  // beads stand from the collector on
+  for (Eigen::Index i = 0; i < jet.size(); ++i) {
+    const Eigen::Index k = jet.size() - 1 - i;
+    turned.y.row(i) = jet.y.row(k);
+    for (auto each : {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume}) (turned.*each)[i] = (jet.*each)[k];
+  }
+  return turned;
+}
+
+Spacing<3> spacing(double threshold) {
+  Parameters p = plain_parameters();
+  p.refinement = true;
+  p.refinement_threshold = threshold;
+  return Spacing<3>(p);
+}
+
+}  // namespace
+
+TEST_CASE("Elements merge from the smallest on, so that neighbours stay within a factor of two") {
+  const Jet<3> jet = straight_jet({1, 0.5, 0.5, 0.25, 0.25, 0.5, 1, 1, 1, 1, 1}, 0.1);
+  const Refinement refinement = spacing(10).refinement(jet);
+  REQUIRE(refinement.size() > 1);
+  CHECK(refinement[0].rows == std::vector<Eigen::Index>{4});  // the quarters; the halves beside one wait
+}
+
+TEST_CASE("Two elements merge where together they are shorter than half the longest that may be") {
+  const std::vector<double> halves(12, 0.5);
+  CHECK(spacing(2).refinement(straight_jet(halves, 1.2)).empty());  // 0.6 + 0.6
+  CHECK_FALSE(spacing(2).refinement(straight_jet(halves, 0.9)).empty());
+}
+
+TEST_CASE("Elements are not split where their halves would be shorter than twice their radius") {
+  // a bead of volume 1 and length 10: radius 0.1 / sqrt(10)
+  CHECK_FALSE(spacing(2).refinement(straight_jet(std::vector<double>(12, 1), 10)).empty());
+  Parameters p = plain_parameters();
+  p.nozzle_cross = 30;  // of length 10 the radius is 9.5
+  p.refinement = true;
+  p.refinement_threshold = 2;
+  CHECK(Spacing<3>(p).refinement(straight_jet(std::vector<double>(12, 1), 10)).empty());
+}

@@ -175,3 +175,14 @@ TEST_CASE("No output is made that the deck does not ask for") {
   terminal.print_list = {"t"};
   CHECK(made(terminal) == std::pair{std::size_t(0), Names{}});
 }
+
+TEST_CASE("Of a slender jet that nothing is added to the free end is half a bead, in mass and charge") {
+  Parameters p = example("pvp", {"points 3"});
+  p.self_field = SelfField::slender;
+  p.inserting = false;
+  const Jet<3> jet = compose<3>(p, {1}).jet;
+  CHECK(jet.mass[0] == 0.5);
+  CHECK(jet.charge[0] == 0.5);
+  CHECK(jet.mass[1] == 1);
+  CHECK(jet.charge[1] == 1);
+}

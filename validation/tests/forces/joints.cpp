@@ -127,3 +127,23 @@ TEST_CASE("Whatever jumps its spacing has, the force on a piece of a thread is o
     CHECK(with[2] < without[2]);
   }
 }
+
+TEST_CASE("Joints are those of the volumes now, though a jet has as many elements as before") {
+  const auto jet = [](double oldest, double youngest) {
+    Jet<3> all;
+    double x = 6 * (oldest + youngest);
+    for (int i = 0; i < 12; ++i) {
+      const double V = i < 6 ? oldest : youngest;
+      Bead<3> bead(Vec<3>(x, 0, 0));
+      bead.volume = bead.mass = bead.charge = V;
+      append<3>(all, bead);
+      x -= V;
+    }
+    return all;
+  };
+  const Section section{0.05, 1};
+  auto used = equations<3>(plain_parameters(), SlenderSelfField<3>(2, section, /*uneven*/ true));
+  auto fresh = equations<3>(plain_parameters(), SlenderSelfField<3>(2, section, /*uneven*/ true));
+  slope(used, jet(1, 0.5));
+  CHECK((slope(used, jet(0.5, 1)) == slope(fresh, jet(0.5, 1))).all());
+}

@@ -320,3 +320,19 @@ TEST_CASE("The noise of a deck is scaled by its units of time and length") {
   REQUIRE(rates.bead_interval < rates.relaxation);
   CHECK(n.interval == Approx(rates.bead_interval / 20 / s.time).epsilon(1e-14));
 }
+
+TEST_CASE("The integral of a Wiener path knows of its end no more than half") {
+  constexpr int n = 20000;
+  constexpr double h = 0.3;
+  const WienerPath path = wiener_path(5);
+  double square = 0, cross = 0;
+  for (int bead = 0; bead < n; ++bead) {
+    const auto [dW, Z] = path(bead, 0, 1.5, h);
+    const double rest = Z - h / 2 * dW;
+    square += rest * rest / n;
+    cross += rest * dW / n;
+  }
+  // given its end, a path is a bridge, whose integral has the variance h^3 / 12; four standard errors
+  CHECK(square == Approx(h * h * h / 12).epsilon(4 * std::sqrt(2. / n)));
+  CHECK(cross == Approx(0).margin(4 * h * h / std::sqrt(12. * n)));
+}

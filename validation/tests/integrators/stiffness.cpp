@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/jet/stiffness.hpp"
+#include "core/jet/viscous_stress.hpp"
 #include "forces/terms/laws/elastoviscoplastic.hpp"
 #include "forces/terms/laws/fene_p.hpp"
 #include "forces/terms/laws/giesekus.hpp"
@@ -320,4 +321,23 @@ TEST_CASE("An overdamped element relaxes by the quadratic formula, and a tube's 
   const double self = s.charge * s.charge / std::pow(s.l_step, 3) * (2 * std::abs(g) + 4.5);
   const double wave = 4 / (s.l_step * s.l_step) * p.elastic_modulus / p.density_mass;
   CHECK(stiffness(p).fastest_rate == Approx(std::sqrt(wave + 4 * self / s.mass)).epsilon(1e-12));
+}
+
+TEST_CASE("A run shorter than the interval of beads has no other to relax within") {
+  Parameters p = pvp(1, 1, 1e-6);
+  const double interval = stiffness(p).bead_interval;
+  p.final_time = interval / 3;
+  CHECK(stiffness(p).bead_interval == p.final_time);
+}
+
+TEST_CASE("The viscous stress of a power law and its slope are closed formulae, its consistency is scaled") {
+  const ViscousStress thinning{.consistency = 2, .index = 0.5};
+  CHECK(thinning(4) == Approx(2 * 2).epsilon(1e-14));  // K r^n
+  CHECK(thinning.derivative(4) == Approx(2 * 0.5 / 2).epsilon(1e-14));
+  Parameters p = pvp(1, 1, 1e-6);
+  p.hb_index = 0.8;
+  p.hb_consistency = 3;
+  CHECK(scaled_consistency(p) == Approx(3 * std::pow(p.viscosity / p.elastic_modulus, 0.2)).epsilon(1e-14));
+  p.solvent_viscosity = p.viscosity / 4;
+  CHECK(viscous_stress(p).consistency == 0.25);
 }

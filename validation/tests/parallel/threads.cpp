@@ -1,8 +1,10 @@
 #include <catch2/catch.hpp>
+#include <mutex>
 #include <numeric>
 #include <stdexcept>
 #include <vector>
 
+#include "parallel/ranks.hpp"
 #include "parallel/threads.hpp"
 
 using namespace treejet;
@@ -47,4 +49,25 @@ TEST_CASE("Threads: the caller gets an exception thrown in a block, after all bl
 TEST_CASE("Threads: no rows, no call") {
   for_each_block({4}, {3, 3}, 4, [](Rows) { FAIL("called"); });
   REQUIRE(available_cores() >= 1);
+}
+
+TEST_CASE("Threads: each gets its share of the blocks") {
+  std::vector<int> sizes;
+  std::mutex one_at_a_time;
+  for_each_block({3}, {0, 90}, 10, [&](Rows block) {
+    const std::lock_guard guard(one_at_a_time);
+    sizes.push_back(block.size());
+  });
+  CHECK(sizes == std::vector<int>{30, 30, 30});
+}
+
+TEST_CASE("Ranks: borders of shares stay within the rows that were asked for") {
+  CHECK(Ranks().borders({5, 23}, 16) == std::vector<int>{5, 23});
+  CHECK(Ranks().borders({0, 0}, 16) == std::vector<int>{0, 0});
+}
+
+TEST_CASE("Ranks: more threads than cores are told, as many are not") {
+  const Ranks alone;
+  CHECK(alone.crowding({available_cores()}).empty());
+  CHECK_THAT(alone.crowding({available_cores() + 1}), Catch::Contains("threads on"));
 }

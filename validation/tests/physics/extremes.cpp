@@ -159,3 +159,11 @@ TEST_CASE("An element stretched a million times keeps finite forces") {
   add_bead<3>(run, Vec<3>(1, 0.1, 0));
   CHECK(stop(run, 1e-3) == "");
 }
+
+TEST_CASE("Two beads at one place stop a run by a tree, which leaves such a pair out") {
+  Run<3> run(with_steps(example("pvp", {"points 900", "initial length 12.", "inserting no", "coulomb tree",
+                                        "coulomb accuracy 1.d-3"}),
+                        Scheme::heun, 1e-9));
+  run.scene.jet.y.row(400).head<3>() = run.scene.jet.y.row(100).head<3>();
+  CHECK_THAT(stop(run, 1e-6), Contains("at one place"));
+}

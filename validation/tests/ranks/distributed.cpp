@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "core/base/error.hpp"
@@ -66,6 +67,12 @@ Tried tried(const PointSet& all, Rows rows, const CoulombRequest& request) {
   return {error(all, rows, field, ranks), solver.report()};
 }
 
+/// The same points with charges that are all different.
+PointSet unequal(PointSet set) {
+  for (std::size_t i = 0; i < set.q.size(); ++i) set.q[i] *= 1 + 0.4 * std::sin(double(i));
+  return set;
+}
+
 /// A chain whose charges alternate in runs of seven.
 PointSet of_both_signs(PointSet set) {
   for (std::size_t i = 0; i < set.q.size(); ++i)
@@ -88,9 +95,9 @@ PointSet slabs(int n) {
 
 const std::vector<std::pair<const char*, PointSet>>& chains() {
   static const std::vector<std::pair<const char*, PointSet>> all = {
-      {"whipping jet", whipping_jet(5000)},
-      {"tight coil", coil(4000, 100, 0.01)},  // turns a sixth as far apart as neighbours: subdomains far
-                                              // along the chain are near in space
+      {"whipping jet", unequal(whipping_jet(5000))},
+      {"tight coil", unequal(coil(4000, 100, 0.01))},  // turns a sixth as far apart as neighbours: subdomains
+                                                       // far along the chain are near in space
       {"tight coil, both signs", of_both_signs(coil(3000, 60, 0.02))},
       {"cloud, both signs, in slabs", slabs(6000)}};
   return all;
@@ -125,7 +132,7 @@ TEST_CASE("Subdomains of unequal size, one of them empty, give the accuracy aske
 
 TEST_CASE("A direct sum of subdomains is exact, with more ranks than points, too") {
   for (int n : {1, 3, 200}) {
-    const PointSet set = straight_line(n);
+    const PointSet set = unequal(straight_line(n));
     const Tried t = tried(set, equal_share(n, started_ranks()), {.accuracy = 1e-5});
     CHECK(t.report.direct);
     // sums of a few hundred terms in another order
@@ -145,7 +152,7 @@ TEST_CASE("A shape too coarse for the accuracy is found out by measurement in su
 
 TEST_CASE("Subdomains see what one undivided tree sees") {
   const Ranks& ranks = started_ranks();
-  const PointSet set = whipping_jet(4000);
+  const PointSet set = unequal(whipping_jet(4000));
   const TreeShape shape = {.order = 7, .opening = 0.4, .leaf = 32};
   const Rows rows = equal_share(set.size(), ranks);
   const PointSet own = subdomain(set, rows);
@@ -168,7 +175,7 @@ TEST_CASE("Subdomains see what one undivided tree sees") {
 
 TEST_CASE("The field of subdomains has the same bits on any number of threads") {
   const Ranks& ranks = started_ranks();
-  const PointSet set = whipping_jet(4000), own = subdomain(set, unequal_share(set.size(), ranks));
+  const PointSet set = unequal(whipping_jet(4000)), own = subdomain(set, unequal_share(set.size(), ranks));
   FieldSet one(own.size()), three(own.size());
   for (const auto& [field, count] : {std::pair{&one, 1}, std::pair{&three, 3}}) {
     CoulombSolver solver = in_subdomains({.method = CoulombMethod::tree, .accuracy = 1e-4});
@@ -184,7 +191,7 @@ TEST_CASE("A chain that grows and moves keeps its accuracy in subdomains") {
       in_subdomains({.method = CoulombMethod::tree, .accuracy = 1e-4, .measured_every = 3});
   int step = 0;
   for (int n : {4000, 4100, 4500, 7000}) {
-    const PointSet set = coil(n, 50, 0.02 / (1 + 0.1 * step++));
+    const PointSet set = unequal(coil(n, 50, 0.02 / (1 + 0.1 * step++)));
     const Rows rows = equal_share(n, ranks);
     const PointSet own = subdomain(set, rows);
     FieldSet field(own.size());
@@ -201,7 +208,7 @@ TEST_CASE("Subdomains of a few beads keep the accuracy while they grow and move"
       in_subdomains({.method = CoulombMethod::tree, .accuracy = 1e-5, .points_move = true});
   for (int step = 0; step < 40; ++step) {
     // wound up more and more tightly, a bead more now and then
-    const PointSet set = coil(10 + step / 4, 1 + 0.1 * step, 0.3 / (1 + 0.1 * step));
+    const PointSet set = unequal(coil(10 + step / 4, 1 + 0.1 * step, 0.3 / (1 + 0.1 * step)));
     const Rows rows = equal_share(set.size(), ranks);
     const PointSet own = subdomain(set, rows);
     FieldSet field(own.size());
@@ -213,7 +220,7 @@ TEST_CASE("Subdomains of a few beads keep the accuracy while they grow and move"
 TEST_CASE("A new cut of the chain is followed by a measurement, the same cut is not") {
   const Ranks& ranks = started_ranks();
   if (ranks.size() == 1) return;  // nothing to cut
-  const PointSet set = whipping_jet(4000);
+  const PointSet set = unequal(whipping_jet(4000));
   CoulombSolver solver =
       in_subdomains({.method = CoulombMethod::tree, .accuracy = 1e-4, .measured_every = 1000});
   const auto samples_after = [&](Rows rows) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <functional>
 
 #include "forces/distributed/chain_decomposition.hpp"
@@ -36,8 +37,20 @@ struct Flight {
   double t = 0;
 };
 
+/// No two beads of the initial jet weigh, repel or fill alike: what takes one number for another shows.
+void make_unequal(Scene<3>& scene) {
+  const auto* pieces = dynamic_cast<const ChainDecomposition*>(&scene.decomposition());
+  for (Eigen::Index i = 0; i < scene.jet.size(); ++i) {
+    const double bead = pieces ? pieces->rows().at(static_cast<std::size_t>(i)) : int(i);
+    scene.jet.mass[i] = 1.1 + 0.2 * std::sin(bead);
+    scene.jet.charge[i] = 1 + 0.1 * std::cos(2 * bead);
+    scene.jet.volume[i] = 0.9 + 0.1 * std::sin(3 * bead);
+  }
+}
+
 Flight flight(const Parameters& p, const Ranks& ranks, double seconds, double interval) {
   Run<3> run(p, {1}, ranks);
+  make_unequal(run.scene);
   Snapshots<3> snapshots(interval / run.unit.time);
   snapshots.sample_all(run.scene.decomposition());
   Flight f;
@@ -51,12 +64,14 @@ Flight flight(const Parameters& p, const Ranks& ranks, double seconds, double in
 }
 
 /// The largest difference of a coordinate, against the distance from nozzle to collector; 1e300 if the beads
-/// are not the same ones.
+/// are not the same ones, with the same masses, charges and volumes.
 double difference(const Flight& a, const Flight& b, const Parameters& p) {
   if (a.jets.size() != b.jets.size()) return 1e300;
   double largest = 0;
   for (std::size_t k = 0; k < a.jets.size(); ++k) {
     if (a.jets[k].size() != b.jets[k].size() || a.jets[k].removed != b.jets[k].removed) return 1e300;
+    for (auto each : {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume})
+      if ((a.jets[k].*each != b.jets[k].*each).any()) return 1e300;
     largest = std::max(largest, (a.jets[k].y.leftCols<3>() - b.jets[k].y.leftCols<3>()).abs().maxCoeff());
   }
   return largest * scales(p).length / p.collector_distance;
@@ -165,6 +180,14 @@ TEST_CASE("Pieces of a jet of one bead, and of one that empties") {
   p.perturb = false;
   const Flight emptied = flight(p, ranks, 1e-2, 1e-3);
   CHECK(emptied.effort.removed == 6);
+}
+
+TEST_CASE("An error that is no number on one rank lets no rank go on") {
+  const Ranks& ranks = started_ranks();
+  const ChainDecomposition pieces(40, ranks);
+  const bool last = ranks.rank() == ranks.size() - 1;
+  CHECK(pieces.greatest(last ? std::nan("") : 0.5) == std::numeric_limits<double>::infinity());
+  CHECK(pieces.greatest(last ? 0.75 : 0.5) == 0.75);
 }
 
 TEST_CASE("Every rank knows which beads it holds, however many there are") {

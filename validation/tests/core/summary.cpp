@@ -1,0 +1,41 @@
+/// What a run tells at its end, from numbers that it tells elsewhere.
+
+#include <catch2/catch.hpp>
+#include <regex>
+
+#include "integrators/run/simulation.hpp"
+#include "validation/support/run.hpp"
+#include "validation/support/scratch_directory.hpp"
+
+using namespace treejet;
+
+TEST_CASE("The summary's volumes and current are those of the beads that were inserted and have arrived") {
+  const Place place;
+  const Deck deck = read_deck(TREEJET_SOURCE_DIR "/validation/decks/stream.dat",
+                              {"points 60", "final time 5.d-4", "timestep 1.d-6", "integrator heun",
+                               "print xyz 1.d-4", "print xyz maxnum 20"});
+  Scene<3> scene = compose<3>(deck.parameters, {1});
+  Simulation<3> simulation(deck, system(scene),
+                           {{place.path, OutputFile::Existing::keep, true, false, {}, {}, nullptr},
+                            [] { return StopRequest::go_on; },
+                            nullptr});
+  REQUIRE(simulation.finish());
+  const std::string text = simulation.summary();
+  CAPTURE(text);
+  const auto number = [&](const char* pattern) {
+    std::smatch found;
+    REQUIRE(std::regex_search(text, found, std::regex(pattern)));
+    return std::stod(found[1]);
+  };
+  const double inserted = number("([0-9]+) inserted"), arrived = number("([0-9]+) arrived");
+  REQUIRE(arrived > 3);
+  REQUIRE(inserted != arrived);
+  const Scales s = scales(deck.parameters);
+  const double microlitres = 1000 * s.mass / deck.parameters.density_mass;  // of a bead
+  constexpr double digits = 1e-3;                                           // four are told
+  CHECK(number("([0-9.e+-]+) uL arrived") == Approx(arrived * microlitres).epsilon(digits));
+  const double flow = number("in the mean ([0-9.e+-]+) mL/h");  // beads an hour, in mL
+  const double statcoulombs = flow / 3600 / (microlitres / 1000) * s.charge;
+  CHECK(number("and ([0-9.e+-]+) nA") == Approx(statcoulombs / 2997924580 * 1e9).epsilon(2 * digits));
+  CHECK_THAT(text, Catch::Contains("traj.xyz leaves out the beads nearest to the nozzle"));
+}
