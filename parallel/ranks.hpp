@@ -4,8 +4,8 @@
 /// Data are replicated: each rank holds everything and does the same arithmetic on it, but for tables whose
 /// rows are shared out. Of such a table a rank sets its own rows, and `gather` gives every rank all of them;
 /// what follows is again the same everywhere, bit for bit. Only the first rank writes files, and only it is
-/// heard: the standard output of the others leads nowhere. Where a chain is held in pieces instead
-/// (forces/coulomb/tree/essential_tree.hpp), ranks write each other letters and take their
+/// heard: the standard output of the others leads nowhere. Where a chain is held in subdomains instead
+/// (forces/coulomb/tree/essential_tree.hpp), ranks write each other messages and take their
 /// decisions from common sums.
 ///
 /// A Ranks is a value. Copies stand for the same rank; a default one is alone and sends nothing. What sends
@@ -56,10 +56,10 @@ class Ranks {
   /// The numbers of all ranks, of each as many, in the order of the ranks.
   std::vector<double> of_all(std::span<const double> own) const;
 
-  /// One letter to each rank, by its number; returned are those that came, by the number of the sender. An
-  /// empty letter is not sent.
-  using Letters = std::vector<std::vector<double>>;
-  Letters exchange(const Letters& to) const;
+  /// One message to each rank, by its number; returned are those that came, by the number of the sender. An
+  /// empty message is not sent.
+  using Messages = std::vector<std::vector<double>>;
+  Messages exchange(const Messages& to) const;
 
   /// The bytes of rank `from`, on the first rank; these two take part, the others get back what
   /// they gave.

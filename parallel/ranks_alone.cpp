@@ -19,7 +19,7 @@ Ranks join_ranks() {
 
 void Ranks::gather(std::span<double* const>, const std::vector<int>&) const {}
 
-Ranks::Letters Ranks::exchange(const Letters& to) const {
+Ranks::Messages Ranks::exchange(const Messages& to) const {
   return to;
 }
 

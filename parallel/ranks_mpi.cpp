@@ -132,15 +132,15 @@ void Ranks::gather(std::span<double* const> columns, const std::vector<int>& bor
   world_->last = seconds_since(begin);
 }
 
-/// Letters and sums count as exchange; how much of it is waiting nobody tells.
-Ranks::Letters Ranks::exchange(const Letters& to) const {
+/// Messages and sums count as exchange; how much of it is waiting nobody tells.
+Ranks::Messages Ranks::exchange(const Messages& to) const {
   if (size_ == 1) return to;
   const auto begin = Clock::now();
   const MPI_Comm comm = world_->everyone;
   std::vector<int> out(to.size()), in(to.size());
   for (std::size_t k = 0; k < to.size(); ++k) out[k] = static_cast<int>(to[k].size());
   MPI_Alltoall(out.data(), 1, MPI_INT, in.data(), 1, MPI_INT, comm);
-  Letters from(to.size());
+  Messages from(to.size());
   std::vector<MPI_Request> under_way;
   for (std::size_t k = 0; k < to.size(); ++k) {
     const int other = static_cast<int>(k);

@@ -68,7 +68,7 @@ const std::vector<Study> studies = {
      900},
     {"scaling", "Speedup and efficiency of ranks and threads", {treejet::study_scaling}, 5, 300},
     {"distributed",
-     "A chain held in pieces: bytes, memory, accuracy, a model of many ranks",
+     "A chain held in subdomains: bytes, memory, accuracy, a model of many ranks",
      {treejet::study_distributed},
      6,
      400},
@@ -159,22 +159,25 @@ int main(int argc, char** argv) {
   bool tree = false;
   auto& single =
       *app.add_subcommand("scaling-run", "One measured run of the scaling study, in ranks or alone");
-  single.add_option("--refinement", scaling_run.refinement, "pieces of an element")
+  single.add_option("--refinement", scaling_run.refinement, "parts of an element")
       ->check(CLI::Range(1, 100000));
   single.add_option("--threads", scaling_run.threads, "threads of each rank")->check(CLI::Range(1, 4096));
   single.add_option("--evaluations", scaling_run.evaluations, "how many to measure")
       ->check(CLI::Range(1, 1000000000));
   single.add_flag("--tree", tree, "Coulomb sum by the tree");
-  single.add_flag("--pieces", scaling_run.pieces, "the chain cut in one piece a rank");
+  single.add_flag("--subdomains", scaling_run.subdomains, "the chain cut in one subdomain a rank");
   treejet::DistributedRun distributed_run;
-  auto& pieces =
-      *app.add_subcommand("distributed-run", "One measured field of a chain held in pieces, by ranks");
-  pieces.add_option("--chain", distributed_run.chain, "jet or coil")->check(CLI::IsMember({"jet", "coil"}));
-  pieces.add_option("--points", distributed_run.points, "of the whole chain")
+  auto& subdomains =
+      *app.add_subcommand("distributed-run", "One measured field of a chain held in subdomains, by ranks");
+  subdomains.add_option("--chain", distributed_run.chain, "jet or coil")
+      ->check(CLI::IsMember({"jet", "coil"}));
+  subdomains.add_option("--points", distributed_run.points, "of the whole chain")
       ->check(CLI::Range(1, 100000000));
-  pieces.add_option("--accuracy", distributed_run.accuracy, "of the field")->check(CLI::Range(1e-12, 0.1));
-  pieces.add_option("--threads", distributed_run.threads, "threads of each rank")->check(CLI::Range(1, 4096));
-  pieces.add_option("--evaluations", distributed_run.evaluations, "the quickest of so many counts")
+  subdomains.add_option("--accuracy", distributed_run.accuracy, "of the field")
+      ->check(CLI::Range(1e-12, 0.1));
+  subdomains.add_option("--threads", distributed_run.threads, "threads of each rank")
+      ->check(CLI::Range(1, 4096));
+  subdomains.add_option("--evaluations", distributed_run.evaluations, "the quickest of so many counts")
       ->check(CLI::Range(1, 1000000));
   try {
     app.parse(argc, argv);
@@ -183,7 +186,7 @@ int main(int argc, char** argv) {
   }
   treejet::Ranks ranks;
   try {
-    if (pieces.parsed()) {
+    if (subdomains.parsed()) {
       ranks = treejet::join_ranks();
       fmt::print("{}", text(measure(distributed_run, ranks)));
       return 0;

@@ -41,7 +41,7 @@ class Relations {
     randomness();
     evaporation();
     output();
-    pieces();
+    subdomains();
     if (composable()) finite_scales();
   }
 
@@ -157,7 +157,7 @@ class Relations {
     error(p_.cutoff.has_value(), {"dynamic refinement", "cutoff"},
           "expected no cutoff: its reach is a number of beads");
     error(p_.parallel == ParallelData::distributed, {"dynamic refinement", "parallel"},
-          "expected parallel replicated: a jet in pieces is not refined");
+          "expected parallel replicated: a jet in subdomains is not refined");
     note(p_.self_field == SelfField::point && p_.density_charge != 0, "dynamic refinement",
          "halving the elements of a chain of point charges changes the force on it; write self field "
          "slender for one that does not depend on them");
@@ -423,8 +423,8 @@ class Relations {
     }
   }
 
-  /// What a jet in pieces cannot do.
-  void pieces() {
+  /// What a jet in subdomains cannot do.
+  void subdomains() {
     if (p_.parallel == ParallelData::replicated) return;
     error(p_.system == 1, {"parallel", "system"}, "expected parallel replicated in system 1");
     error(p_.coulomb == CoulombSum::direct, {"parallel", "coulomb"},
@@ -434,10 +434,10 @@ class Relations {
     error(p_.integrator == Scheme::sra1, {"parallel", "integrator"},
           "expected another integrator than sra1, which draws for all beads of the jet");
     if (composable())
-      error(
-          properties(chosen_scheme(p_)).implicit, {"parallel", "integrator"},
-          "expected an explicit integrator, or parallel replicated: the local terms of a chain in pieces are "
-          "not solved for");
+      error(properties(chosen_scheme(p_)).implicit, {"parallel", "integrator"},
+            "expected an explicit integrator, or parallel replicated: the local terms of a chain in "
+            "subdomains are "
+            "not solved for");
   }
 
   const Given* find(std::string_view words) const { return treejet::find(given_, directive(words)); }

@@ -249,7 +249,7 @@ const Directive table[] = {
      .meaning = "local: dual tree with local expansions; none: Barnes and Hut's, cells on beads"},
 
     {.words = "parallel", .member = &P::parallel,
-     .meaning = "what ranks hold: all of the jet each (replicated), or a piece each (distributed), for 1e6 beads and "
+     .meaning = "what ranks hold: all of the jet each (replicated), or a subdomain each (distributed), for 1e6 beads and "
                 "more; needs system 3, coulomb tree or auto",
      .heading = "Ranks"},
 

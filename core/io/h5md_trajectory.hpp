@@ -12,8 +12,8 @@
 /// then a frame is a chunk, and a flush is due when fifty times its own duration has passed, at a checkpoint,
 /// and at the end.
 ///
-/// A frame that is written part by part, as those of a jet in pieces are, is flushed at once, and copied part
-/// by part to the twin at the next flush.
+/// A frame that is written part by part, as those of a jet in subdomains are, is flushed at once, and copied
+/// part by part to the twin at the next flush.
 ///
 /// Errors: FileError; what was flushed before stays.
 

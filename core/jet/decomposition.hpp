@@ -1,5 +1,5 @@
 #pragma once
-/// Who holds the beads of a chain: all of them here, or a piece of the chain on each rank.
+/// Who holds the beads of a chain: all of them here, or a subdomain of the chain on each rank.
 ///
 /// With `parallel distributed` the jet of a rank is not the whole one. Its first row is the oldest bead of
 /// the chain and its last row the youngest, on every rank and to the same bits; between them are the beads
@@ -15,7 +15,7 @@
 
 namespace treejet {
 
-/// Of a checkpoint of a chain in pieces: so many beads from this one on, oldest first; or, without beads,
+/// Of a checkpoint of a chain in subdomains: so many beads from this one on, oldest first; or, without beads,
 /// what only the rank with that number knows.
 struct PieceRecord {
   std::int64_t first = 0, count = 0;
@@ -32,19 +32,19 @@ class Decomposition {
  public:
   virtual ~Decomposition() = default;
 
-  /// Whether a rank's jet is a piece: maybe all of it, if the rank is alone.
-  virtual bool in_pieces() const { return false; }
+  /// Whether a rank's jet is a subdomain: maybe all of it, if the rank is alone.
+  virtual bool in_subdomains() const { return false; }
 
   /// Beads of the whole chain, and those that stand before row 0 or have left.
   virtual std::int64_t beads(const Jet<D>& jet) const { return jet.size(); }
   virtual std::int64_t before(const Jet<D>& jet) const { return jet.removed; }
 
-  /// The greatest error of all who hold a piece.
+  /// The greatest error of all who hold a subdomain.
   virtual double greatest(double error) const { return error; }
 
   /// Rows here that nobody else counts, of a table that is as long as the jet.
   virtual std::pair<Eigen::Index, Eigen::Index> own_rows(Eigen::Index rows) const { return {0, rows}; }
-  /// Each number becomes the sum of those of all who hold a piece.
+  /// Each number becomes the sum of those of all who hold a subdomain.
   virtual void add_up(Eigen::Ref<Eigen::ArrayXd>) const {}
 
   /// From the oldest bead to the nozzle, of the whole chain.

@@ -42,7 +42,7 @@ class Hdf5Trajectory final : public Sampling<D> {
  protected:
   void sample(const Jet<D>& jet) override {
     const Decomposition<D>& all = this->decomposition();
-    if (!all.in_pieces()) return file_->append(part(jet));
+    if (!all.in_subdomains()) return file_->append(part(jet));
     const auto points = static_cast<std::uint64_t>(all.beads(jet)) + 1;
     file_->append(jet.t * setting_.scales.time, points, [&](const auto& take) { give(jet, take); });
   }

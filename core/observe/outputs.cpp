@@ -54,7 +54,7 @@ void expect_absent(const Parameters& p, const std::filesystem::path& directory) 
   }
 }
 
-/// Sends its piece of what another rank writes: the oldest `most` beads.
+/// Sends its subdomain of what another rank writes: the oldest `most` beads.
 template <int D>
 class Contribution final : public Sampling<D> {
  public:
@@ -143,11 +143,11 @@ Samples& Outputs<D>::watch(const std::string& name, std::unique_ptr<Samples> wat
   return watching;
 }
 
-/// What another rank writes of all pieces, this one gives its own to, in the same order.
+/// What another rank writes of all subdomains, this one gives its own to, in the same order.
 template <int D>
 void Outputs<D>::contribute(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
                             const OutputSetting& setting, const Decomposition<D>& decomposition) {
-  if (!decomposition.in_pieces()) return;
+  if (!decomposition.in_subdomains()) return;
   const Scales s = scales(p);
   if (makes_rows(p, setting)) {
     auto rows = recorder<D>(p, nozzle, collector, setting);

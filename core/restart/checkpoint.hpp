@@ -7,7 +7,7 @@
 /// time shortened, from which a run to a later one takes the same steps. The file: a line of text with the
 /// format's number, the length and the checksum (CRC-32) of what follows, and that, as core/base/archive.hpp
 /// writes it: which program and deck made it, and the state in named parts. Of a chain that ranks hold in
-/// pieces the beads come behind that, in records with lengths and checksums of their own
+/// subdomains the beads come behind that, in records with lengths and checksums of their own
 /// (core/jet/decomposition.hpp), so that nobody ever holds more of them than a record and what is his.
 
 #include <array>

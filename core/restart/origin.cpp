@@ -219,7 +219,7 @@ Jet<D> jet_of(const Origin& o, const Parameters& p, const Columns& added) {
     refuse(o, fmt::format("it is at t = {:.10g} s; expected a final time beyond, found {:g} s", o.t,
                           p.final_time));
   if (o.checkpoint && o.checkpoint->records > 0)
-    refuse(o, "its beads are in pieces; begin with a frame, DIR@t");
+    refuse(o, "its beads are in subdomains; begin with a frame, DIR@t");
   const Jet<D> jet = o.checkpoint ? rescaled<D>(o, p, added) : of_frame<D>(o, p, added);
   expect_sound(o, p, jet);
   return jet;

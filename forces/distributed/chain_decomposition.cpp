@@ -164,19 +164,20 @@ void ChainDecomposition::arrange(Jet<3>& jet, const Layout& had) {
   const Beads beads = beads_of(jet, carried_(0, jet.size()));
   const auto lacking = [&](int rank) { return without(layout_.here(rank), had.here(rank)); };
   bool any = false;
-  Ranks::Letters letters(index(ranks_.size()));
+  Ranks::Messages messages(index(ranks_.size()));
   for (int rank = 0; rank < ranks_.size(); ++rank)
     for (const Stretch& s : lacking(rank)) {
       any = true;
       const Stretch mine_of_it = common(s, had.own(me));
       if (mine_of_it.size() == 0) continue;
       const double* const from = beads.col(place_of(mine_of_it.first, mine)).data();
-      letters[index(rank)].insert(letters[index(rank)].end(), from, from + mine_of_it.size() * beads.rows());
+      messages[index(rank)].insert(messages[index(rank)].end(), from,
+                                   from + mine_of_it.size() * beads.rows());
     }
   std::vector<double> received;  // ascending, as the ranks are
   if (any)
-    for (const auto& letter : ranks_.exchange(letters))
-      received.insert(received.end(), letter.begin(), letter.end());
+    for (const auto& message : ranks_.exchange(messages))
+      received.insert(received.end(), message.begin(), message.end());
 
   const std::vector<int> wanted = rows();
   const Eigen::Index words = beads.rows();
@@ -200,12 +201,12 @@ void ChainDecomposition::arrange(Jet<3>& jet, const Layout& had) {
 /// Every element belongs to the bead at its lower end.
 double ChainDecomposition::path_length(const State<3>& y, const Vec<3>& nozzle) const {
   const Rows own = this->own();
-  Ranks::Letters letters(index(ranks_.size()));
+  Ranks::Messages messages(index(ranks_.size()));
   if (const int to = older(); to >= 0) {
     const Vec<3> r = position<3>(y, own.first);
-    letters[index(to)] = {r[0], r[1], r[2]};
+    messages[index(to)] = {r[0], r[1], r[2]};
   }
-  const Ranks::Letters received = ranks_.exchange(letters);
+  const Ranks::Messages received = ranks_.exchange(messages);
   double length = 0;
   if (own.size() > 0) {
     const int from = younger();
@@ -268,7 +269,7 @@ void ChainDecomposition::visit(Jet<3>& jet, Archive& state) {
   if (!state.reading()) return;
   if (columns != jet.y.cols() || borders.empty() || borders[0] != 0 ||
       !std::is_sorted(borders.begin(), borders.end()))
-    throw FileError("the checkpoint's jet cannot be cut into pieces");
+    throw FileError("the checkpoint's jet cannot be cut into subdomains");
   cut(borders.back());
   cut_as_saved_ = borders.size() == layout_.borders.size();
   if (cut_as_saved_) layout_.borders = borders;

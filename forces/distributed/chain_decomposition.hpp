@@ -1,21 +1,22 @@
 #pragma once
-/// A chain cut into contiguous pieces, one a rank, each a few rows of the jet (core/jet/decomposition.hpp).
+/// A chain cut into contiguous subdomains, one a rank, each a few rows of the jet
+/// (core/jet/decomposition.hpp).
 ///
 ///     rows              rows own()                       rows
 ///     oldest beads      the beads of this rank alone     youngest beads
 ///
 /// The oldest and the youngest beads, one each or as many as `ends` says, are rows of every rank: of those
-/// that hold them their own, of the others copies. Insertion adds to the piece at the nozzle, removal takes
-/// from that at the collector, and as every rank sees both, all know all counts without asking. When a piece
-/// has grown a fifth beyond its share, or that at the collector is down to one bead, the chain is cut anew.
-/// Pieces have at least four beads: in a short chain some ranks have none.
+/// that hold them their own, of the others copies. Insertion adds to the subdomain at the nozzle, removal
+/// takes from that at the collector, and as every rank sees both, all know all counts without asking. When a
+/// subdomain has grown a fifth beyond its share, or that at the collector is down to one bead, the chain is
+/// cut anew. Subdomains have at least four beads: in a short chain some ranks have none.
 ///
 /// Files and checkpoints get the chain in portions, which the ranks hand to the first one in turn: it holds
-/// no more than one at a time beside its own piece. A checkpoint may be read by any number of ranks, each of
-/// which takes the beads that are then its own; on as many as before the chain is cut as it was.
+/// no more than one at a time beside its own subdomain. A checkpoint may be read by any number of ranks, each
+/// of which takes the beads that are then its own; on as many as before the chain is cut as it was.
 ///
 /// Weak: what looks at neighbouring rows (integrators/march/diagnosis.hpp) takes the own beads next to a copy
-/// for its neighbours, and sees no element from one piece to the next.
+/// for its neighbours, and sees no element from one subdomain to the next.
 
 #include <vector>
 
@@ -35,7 +36,7 @@ class ChainDecomposition final : public Decomposition<3> {
   /// The rows that are this rank's own.
   Rows own() const;
   bool has_youngest() const { return ranks_.rank() == layout_.holder(total() - 1); }
-  /// Ranks with the pieces next to this one, towards the collector and towards the nozzle; -1: none.
+  /// Ranks with the subdomains next to this one, towards the collector and towards the nozzle; -1: none.
   int older() const { return neighbour(-1); }
   int younger() const { return neighbour(+1); }
   const Ranks& ranks() const { return ranks_; }
@@ -53,7 +54,7 @@ class ChainDecomposition final : public Decomposition<3> {
   /// What a rank knows by itself goes through checkpoints as long as the chain is cut the same.
   void keep(std::function<void(Archive&)> own_state) { own_state_ = std::move(own_state); }
 
-  bool in_pieces() const override { return true; }
+  bool in_subdomains() const override { return true; }
   std::int64_t beads(const Jet<3>&) const override { return total(); }
   std::int64_t before(const Jet<3>& jet) const override {
     return jet.removed + layout_.own(ranks_.rank()).first - own().first;

@@ -1,10 +1,10 @@
 #pragma once
-/// The equations of motion of a chain held in pieces, one a rank (chain_decomposition.hpp).
+/// The equations of motion of a chain held in subdomains, one a rank (chain_decomposition.hpp).
 ///
 /// The local terms see the own beads with one neighbour on either side, which the ranks next along the chain
 /// send at each evaluation; the Coulomb field is that of CoulombSolver, the held bead and the nozzle
-/// belonging to the piece that ends there. The slopes of the oldest and the youngest bead go from their ranks
-/// to all, so that their copies stay the same bits.
+/// belonging to the subdomain that ends there. The slopes of the oldest and the youngest bead go from their
+/// ranks to all, so that their copies stay the same bits.
 
 #include <optional>
 
@@ -16,14 +16,14 @@ namespace treejet {
 
 class DistributedMotion final : public FullMotion<3> {
  public:
-  /// `local` has no Coulomb term; it and `pieces` outlive this.
-  DistributedMotion(EquationsOfMotion<3>& local, const ChainDecomposition& pieces, Threads threads)
-      : local_(local), pieces_(pieces), threads_(threads) {}
+  /// `local` has no Coulomb term; it and `subdomains` outlive this.
+  DistributedMotion(EquationsOfMotion<3>& local, const ChainDecomposition& subdomains, Threads threads)
+      : local_(local), subdomains_(subdomains), threads_(threads) {}
 
   /// Without it there are no charges.
   void add_coulomb(double Q, const CoulombRequest& request) {
     Q_ = Q;
-    solver_.emplace(request, default_isa(), TreeRanks{.subdomains = pieces_.ranks()});
+    solver_.emplace(request, default_isa(), TreeRanks{.subdomains = subdomains_.ranks()});
   }
 
   /// What the next field is made from beside the points, of this rank and this cut. On other ranks the field
@@ -39,7 +39,7 @@ class DistributedMotion final : public FullMotion<3> {
   const Chain<3>& chain() const override { return chain_; }
   const Chain<3>::Points& field() const override { return field_of_rows_; }
   std::pair<const Chain<3>*, Rows> own_elements() const override {
-    return {&local_.chain(), {first_, first_ + pieces_.own().size()}};
+    return {&local_.chain(), {first_, first_ + subdomains_.own().size()}};
   }
   double Q() const override { return Q_; }
   double smooth_from(double t) override { return local_.smooth_from(t); }
@@ -54,7 +54,7 @@ class DistributedMotion final : public FullMotion<3> {
   void set_last_evaluation(const Jet<3>& jet, double t, const State<3>& y);
 
   EquationsOfMotion<3>& local_;
-  const ChainDecomposition& pieces_;
+  const ChainDecomposition& subdomains_;
   Threads threads_;
   double Q_ = 0;
   std::optional<CoulombSolver> solver_;

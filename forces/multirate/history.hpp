@@ -6,7 +6,7 @@
 /// and a release the values are repaired as if the bead had always been absent or present; the past of a
 /// released bead is the straight way on which it left. For a refinement of the elements the states are
 /// remembered too, and evaluated anew as if the elements had always been the new ones. Rows are those of the
-/// jet: of one in pieces, all fast beads and some of the others. Scaled. Source: e.g. Hairer, Norsett,
+/// jet: of one in subdomains, all fast beads and some of the others. Scaled. Source: e.g. Hairer, Norsett,
 /// Wanner, "Solving ODEs I", III.1.
 
 #include <array>

@@ -42,8 +42,8 @@ class MultirateMotion final : public RightHandSide<D> {
       : MultirateMotion(full, full, norm, short_waves, undivided<D>) {
     refines_ = refines;
   }
-  /// Of a jet in pieces, whose rows here include those of the fast region, these from `local` terms, and all
-  /// from time to time from `full`.
+  /// Of a jet in subdomains, whose rows here include those of the fast region, these from `local` terms, and
+  /// all from time to time from `full`.
   MultirateMotion(EquationsOfMotion<D>& local, FullMotion<D>& full, const ErrorNorm& norm,
                   const ShortWaves& short_waves, const Decomposition<D>& all)
       : local_(local), full_(full), norm_(norm), short_waves_(short_waves), all_(all) {}
@@ -71,9 +71,9 @@ class MultirateMotion final : public RightHandSide<D> {
 
   void visit(Archive& state) override {
     state(full_, interval_, full_evaluations_, amplifies_);
-    all_.in_pieces() ? history_.visit_all_but_beads(state) : state(history_);
+    all_.in_subdomains() ? history_.visit_all_but_beads(state) : state(history_);
   }
-  /// What goes with the beads of a jet in pieces.
+  /// What goes with the beads of a jet in subdomains.
   Eigen::ArrayXXd of_beads(Eigen::Index first, Eigen::Index rows) const {
     return history_.of_beads(first, rows);
   }

@@ -161,8 +161,8 @@ class Composer {
 
   /// Null without charge, where it is softened, or where the subdomains' own solver adds it.
   std::unique_ptr<CoulombForce<D>> coulomb() {
-    if (in_pieces()) {
-      note(g_.Q != 0, "Coulomb sum of all pieces", "parallel distributed", "density charge is 0");
+    if (in_subdomains()) {
+      note(g_.Q != 0, "Coulomb sum of all subdomains", "parallel distributed", "density charge is 0");
       return nullptr;
     }
     if (g_.Q == 0) {
@@ -184,7 +184,7 @@ class Composer {
          "no dynamic refinement yes");
   }
 
-  bool in_pieces() const { return p_.parallel == ParallelData::distributed; }
+  bool in_subdomains() const { return p_.parallel == ParallelData::distributed; }
 
   /// Multirate needs an error to hold, a sum over all pairs to take apart, and slopes that a parabola can
   /// continue in time.
@@ -324,24 +324,24 @@ std::vector<int> whole_jet(const Parameters& p) {
 
 }  // namespace
 
-void hold_in_pieces(Scene<3>& scene, const Parameters& p, int beads, const JetOfRows& jet_of, Threads threads,
-                    const Ranks& ranks, bool two_rates) {
+void distribute(Scene<3>& scene, const Parameters& p, int beads, const JetOfRows& jet_of, Threads threads,
+                const Ranks& ranks, bool two_rates) {
   const Ends ends = two_rates ? Ends{fast_region_old, fast_region_beads - fast_region_old} : Ends{};
-  auto pieces = std::make_unique<ChainDecomposition>(beads, ranks, ends);
-  auto motion = std::make_unique<DistributedMotion>(*scene.motion, *pieces, threads);
+  auto subdomains = std::make_unique<ChainDecomposition>(beads, ranks, ends);
+  auto motion = std::make_unique<DistributedMotion>(*scene.motion, *subdomains, threads);
   if (groups(p).Q != 0) motion->add_coulomb(groups(p).Q, coulomb_request(p, /*points_move*/ true));
-  pieces->keep([field = motion.get()](Archive& state) { field->visit_field(state); });
+  subdomains->keep([field = motion.get()](Archive& state) { field->visit_field(state); });
   if (two_rates) {
     motion->be_continued();
     scene.multirate = std::make_unique<MultirateMotion<3>>(
-        *scene.motion, *motion, ErrorNorm(p, scene.columns), ShortWaves(p), *pieces);
-    pieces->carry([m = scene.multirate.get()](auto first, auto rows) { return m->of_beads(first, rows); },
-                  [m = scene.multirate.get()](const auto& table) { m->set_beads(table); });
+        *scene.motion, *motion, ErrorNorm(p, scene.columns), ShortWaves(p), *subdomains);
+    subdomains->carry([m = scene.multirate.get()](auto first, auto rows) { return m->of_beads(first, rows); },
+                      [m = scene.multirate.get()](const auto& table) { m->set_beads(table); });
   }
-  scene.jet = jet_of(pieces->rows());
-  scene.pieces_error = motion->error();
-  scene.pieces_motion = std::move(motion);
-  scene.pieces = std::move(pieces);
+  scene.jet = jet_of(subdomains->rows());
+  scene.distributed_error = motion->error();
+  scene.distributed_motion = std::move(motion);
+  scene.subdomains = std::move(subdomains);
 }
 
 template <int D>
@@ -354,20 +354,20 @@ Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks, OwnTe
   composer.boundaries();
   const Columns& columns = composer.columns;
   const Nozzle<D> nozzle(p, columns);
-  const std::vector<int> beads = composer.in_pieces() ? std::vector<int>() : whole_jet(p);
+  const std::vector<int> beads = composer.in_subdomains() ? std::vector<int>() : whole_jet(p);
   Scene<D> scene{
       initial_jet<D>(p, beads, columns), nozzle, Collector(p), {}, {}, {}, {}, nullptr, columns, {}, {}};
   scene.motion = std::make_unique<EquationsOfMotion<D>>(nozzle, std::move(law), std::move(local_terms),
                                                         std::move(coulomb), threads);
   for (auto& rate : column_rates) scene.motion->add_column(std::move(rate));
   const bool two_rates = composer.multirate();
-  if (two_rates && !composer.in_pieces())
+  if (two_rates && !composer.in_subdomains())
     scene.multirate = std::make_unique<MultirateMotion<D>>(*scene.motion, ErrorNorm(p, columns),
                                                            ShortWaves(p), p.refinement);
   if constexpr (D == 3)
-    if (composer.in_pieces()) {
+    if (composer.in_subdomains()) {
       const auto jet_of = [&](const std::vector<int>& rows) { return initial_jet<3>(p, rows, columns); };
-      hold_in_pieces(scene, p, initial_elements(p), jet_of, threads, ranks, two_rates);
+      distribute(scene, p, initial_elements(p), jet_of, threads, ranks, two_rates);
     }
   scene.composed = std::move(composer.composed);
   scene.left_out = std::move(composer.left_out);

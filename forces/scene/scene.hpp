@@ -36,33 +36,33 @@ struct Scene {
   Collector collector;
   std::unique_ptr<EquationsOfMotion<D>> motion;
   std::unique_ptr<MultirateMotion<D>> multirate;  ///< null where every term is evaluated at every stage
-  /// Of a jet held in pieces: who holds what, and its motion. Null where every rank holds all of it.
-  std::unique_ptr<Decomposition<D>> pieces;
-  std::unique_ptr<RightHandSide<D>> pieces_motion;
-  const FieldErrorReport* pieces_error = nullptr;
+  /// Of a jet held in subdomains: who holds what, and its motion. Null where every rank holds all of it.
+  std::unique_ptr<Decomposition<D>> subdomains;
+  std::unique_ptr<RightHandSide<D>> distributed_motion;
+  const FieldErrorReport* distributed_error = nullptr;
   Columns columns;  ///< added to the state
   std::vector<Composed> composed, left_out;
 
   /// The right-hand side to step with.
   RightHandSide<D>& right_hand_side() {
     if (multirate) return *multirate;
-    if (pieces_motion) return *pieces_motion;
+    if (distributed_motion) return *distributed_motion;
     return *motion;
   }
 
   /// What is measured of approximate forces, null where all are exact.
   const FieldErrorReport* force_error() const {
-    return motion->coulomb() ? motion->coulomb()->error() : pieces_error;
+    return motion->coulomb() ? motion->coulomb()->error() : distributed_error;
   }
 
-  Decomposition<D>& decomposition() { return pieces ? *pieces : undivided<D>; }
+  Decomposition<D>& decomposition() { return subdomains ? *subdomains : undivided<D>; }
 };
 
-/// Puts the motion of a jet of so many beads in pieces on top of the local terms; `jet_of` gives the beads of
-/// a piece by number.
+/// Puts the motion of a jet of so many beads in subdomains on top of the local terms; `jet_of` gives the
+/// beads of a subdomain by number.
 using JetOfRows = std::function<Jet<3>(const std::vector<int>&)>;
-void hold_in_pieces(Scene<3>& scene, const Parameters& parameters, int beads, const JetOfRows& jet_of,
-                    Threads threads, const Ranks& ranks, bool two_rates = false);
+void distribute(Scene<3>& scene, const Parameters& parameters, int beads, const JetOfRows& jet_of,
+                Threads threads, const Ranks& ranks, bool two_rates = false);
 
 template <int D>
 Scene<D> compose(const Parameters& parameters, Threads threads, const Ranks& ranks = {},

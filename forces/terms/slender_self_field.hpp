@@ -25,9 +25,9 @@
 ///
 /// Errors: O(a^2 / R^2) at distance R; second order in smooth spacings. A form exact at any l/a on a straight
 /// line softens the repulsion of some eight neighbours by a and has a g that is greater by 0.6 (a / l)^2; it
-/// is not taken, for neither the stiff scheme nor a chain in pieces could treat it as local. Scaled. Sources:
-/// slender-body theory; the electric pressure as in Hohman, Shin, Rutledge and Brenner, Phys. Fluids 13
-/// (2001) 2201.
+/// is not taken, for neither the stiff scheme nor a chain in subdomains could treat it as local. Scaled.
+/// Sources: slender-body theory; the electric pressure as in Hohman, Shin, Rutledge and Brenner, Phys. Fluids
+/// 13 (2001) 2201.
 
 #include "forces/terms/section.hpp"
 #include "forces/terms/term.hpp"

@@ -29,7 +29,7 @@ struct TableOfRows {
   std::vector<std::vector<double>> rows;
 };
 
-/// InputError if the deck's run has no rows to estimate, or is held in pieces.
+/// InputError if the deck's run has no rows to estimate, or is held in subdomains.
 void expect_estimable(const Parameters& p);
 
 /// The same deck at a tenth of the tolerance, or half the timestep.

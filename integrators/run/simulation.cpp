@@ -105,7 +105,7 @@ bool Simulation<D>::stop_here() {
   return stop_request == StopRequest::stop;
 }
 
-/// Of a jet in pieces all ranks give theirs to the one that writes.
+/// Of a jet in subdomains all ranks give theirs to the one that writes.
 template <int D>
 void Simulation<D>::save() {
   if (!checkpoints_) return decomposition_.write(jet_, {});

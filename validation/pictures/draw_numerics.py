@@ -1,5 +1,5 @@
 """Pictures of the numerics: work and precision, orders of convergence, time reversal, stable steps, scaling, and the
-Coulomb field's error against time, its crossover with the direct sum and its growth, a chain held in pieces."""
+Coulomb field's error against time, its crossover with the direct sum and its growth, a chain held in subdomains."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -114,7 +114,7 @@ def draw_stable_steps(rows, directory):
 def draw_scaling(rows, directory):
     """The paper's two figures: speedup and efficiency against the number of workers, one line a system size."""
     rows = [row for row in rows if row["speedup"]]
-    kinds = [kind for kind in ("ranks", "ranks with pieces", "threads", "mixed") if any(row["kind"] == kind for row in rows)]
+    kinds = [kind for kind in ("ranks", "ranks with subdomains", "threads", "mixed") if any(row["kind"] == kind for row in rows)]
     sizes = sorted({(int(row["beads"]), row["sum"]) for row in rows})
     colours = dict(zip(sizes, plt.get_cmap("viridis")(np.linspace(0, 0.9, len(sizes)))))
     most = max(int(row["workers"]) for row in rows)
@@ -223,7 +223,7 @@ def draw_coulomb_growth(rows, directory):
 
 
 def draw_distributed(rows, directory):
-    """What a rank of a chain in pieces is sent, holds, and how accurate the field is."""
+    """What a rank of a chain in subdomains is sent, holds, and how accurate the field is."""
     figure, panels = plt.subplots(1, 3, figsize=(11, 4), layout="constrained")
     groups = {(chain, size): of for chain, some in rows_of(rows, "chain").items() for size, of in rows_of(some, "points").items()}
     for ((chain, size), some), colour in zip(groups.items(), plt.cm.tab10.colors):
@@ -250,7 +250,7 @@ def draw_distributed_model(rows, directory):
     for (label, some), colour in zip(lines_of.items(), plt.cm.tab10.colors):
         panel.semilogx([number(row["ranks"]) for row in some], [number(row["MODEL efficiency"]) for row in some],
                        color=colour, marker="o", markersize=4, linewidth=1.2, label=label)
-    panel.set(xlabel="ranks", ylabel="efficiency", title="MODEL, not a measurement: chain in pieces", ylim=(0, 1.05))
+    panel.set(xlabel="ranks", ylabel="efficiency", title="MODEL, not a measurement: chain in subdomains", ylim=(0, 1.05))
     panel.axhline(0.8, color="0.6", linewidth=0.8, linestyle=":")
     finish(figure, [panel], directory / "distributed_model.png")
 

@@ -24,14 +24,14 @@ struct Size {
   int evaluations;
 };
 
-/// A team, and whether its ranks hold a piece of the chain each or all of it.
+/// A team, and whether its ranks hold a subdomain of the chain each or all of it.
 struct Way {
   RankLayout layout;
-  bool pieces = false;
+  bool subdomains = false;
 
   std::string name() const {
     if (layout.serial()) return "serial";
-    if (pieces) return "ranks with pieces";
+    if (subdomains) return "ranks with subdomains";
     return layout.threads == 1 ? "ranks" : layout.ranks == 1 ? "threads" : "mixed";
   }
 };
@@ -40,7 +40,7 @@ Measurement measured(const Way& way, const Size& size, int cores) {
   return measurement(output(way.layout, cores,
                             fmt::format("scaling-run --refinement {} --threads {} --evaluations {}{}{}",
                                         size.refinement, way.layout.threads, size.evaluations,
-                                        size.tree ? " --tree" : "", way.pieces ? " --pieces" : "")));
+                                        size.tree ? " --tree" : "", way.subdomains ? " --subdomains" : "")));
 }
 
 /// The turns of one way.
@@ -86,14 +86,14 @@ std::vector<Sample> samples(const std::vector<Way>& ways, const Size& size, int 
   return all;
 }
 
-/// The serial program first, and more workers than cores, whose bits can be compared. Pieces, whose bits
+/// The serial program first, and more workers than cores, whose bits can be compared. Subdomains, whose bits
 /// depend on their number, go with the tree only.
 std::vector<Way> ways(int cores, bool tree) {
   std::vector<Way> all = {{{1, 1}}};
   for (int p = 2; p <= 2 * cores; p *= 2) {
     for (int threads = 1; threads <= p; threads *= 2)
       if (threads == p || !mpi_launcher().empty()) all.push_back({{p / threads, threads}});
-    if (tree && p <= cores && !mpi_launcher().empty()) all.push_back({{p, 1}, /*pieces*/ true});
+    if (tree && p <= cores && !mpi_launcher().empty()) all.push_back({{p, 1}, /*subdomains*/ true});
   }
   return all;
 }
@@ -156,7 +156,7 @@ void study_scaling(Report& report) {
   report.section({"Speedup and efficiency",
                   "The paper's two figures: case 3 at several sizes on ranks, threads and both, each worker "
                   "on a core of its own; more workers than cores show correctness only. Ranks hold the whole "
-                  "jet each, or, with the tree, a piece of it (parallel distributed).",
+                  "jet each, or, with the tree, a subdomain of it (parallel distributed).",
                   "treejet-validate scaling --out DIR"});
   const int cores = physical_cores();
   const std::vector<Size> sizes =
@@ -185,7 +185,7 @@ void study_scaling(Report& report) {
       const Measurement m = times[k].median();
       const Spread speedup(speedups(times[0], times[k]));
       table.row(row(size, way, times[k], speedup, timed));
-      different += !way.pieces && m.bits != times[0].median().bits;
+      different += !way.subdomains && m.bits != times[0].median().bits;
       if (timed && !way.layout.serial())
         (size.tree ? tree : direct)
             .add(way.name(), double(m.beads) / way.layout.workers(), speedup.median / way.layout.workers());

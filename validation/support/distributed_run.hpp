@@ -14,7 +14,7 @@ namespace treejet {
 class LongChain {
  public:
   /// "jet": a whipping jet of 40 turns that widen along the axis. "coil": 1000 turns of radius 1 and pitch
-  /// 0.01, where pieces far along the chain are near in space.
+  /// 0.01, where subdomains far along the chain are near in space.
   explicit LongChain(const std::string& kind);
   /// Those of n points that stand in `rows`, or of each `stride` runs of so many the first one.
   PointSet points(int n, Rows rows, int stride = 1, int run = 1) const;

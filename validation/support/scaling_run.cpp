@@ -130,12 +130,12 @@ Measurement measure(const ScalingRun& r, const Ranks& ranks) {
   const Parameters p =
       example("pvp", {fmt::format("points {}", r.refinement), "multirate no", "print list t",
                       "printstat list t", r.sum == CoulombSum::direct ? "coulomb direct" : "coulomb tree",
-                      r.pieces ? "parallel distributed" : "parallel replicated"});
+                      r.subdomains ? "parallel distributed" : "parallel replicated"});
   const Threads threads{r.threads};
   Scene<3> scene = compose<3>(p, threads, ranks);
   const Jet<3> jet = refined(grown.jet, grown.nozzle, r.refinement);
-  if (r.pieces)
-    hold_in_pieces(
+  if (r.subdomains)
+    distribute(
         scene, p, static_cast<int>(jet.size()), [&](const std::vector<int>& rows) { return part(jet, rows); },
         threads, ranks);
   else

@@ -2,7 +2,7 @@
 /// One measured run of the scaling study, in a process (or rank) of its own.
 ///
 /// The jet is the paper's case 3 at 12 ms, whipping from nozzle to collector, its elements cut in
-/// `refinement` pieces: what a deck with so much smaller an l_step would hold. It is moved by the deck's own
+/// `refinement` parts: what a deck with so much smaller an l_step would hold. It is moved by the deck's own
 /// scheme, every term at every stage, for a number of evaluations after a warm-up.
 
 #include <string>
@@ -16,7 +16,7 @@ struct ScalingRun {
   int refinement = 1;
   CoulombSum sum = CoulombSum::direct;
   int threads = 1, evaluations = 100;
-  bool pieces = false;  ///< the chain cut in one piece a rank; else replicated
+  bool subdomains = false;  ///< the chain cut in one subdomain a rank; else replicated
 };
 
 struct Measurement {

@@ -49,7 +49,7 @@ void study_restart(Report& report);
 /// section, and that none of them changes a bit of the answer.
 void study_scaling(Report& report);
 
-/// The field of a chain held in pieces, one a rank: bytes, memory, accuracy, and a model of many ranks.
+/// The field of a chain held in subdomains, one a rank: bytes, memory, accuracy, and a model of many ranks.
 void study_distributed(Report& report);
 
 /// Decks and states at the edge of what can be simulated: a right answer or a clear stop.

@@ -116,7 +116,7 @@ void prune(Tree& tree) {
 }
 
 /// For what the messages bring at most: arrays that grow by doubling would hold the own subdomain twice.
-void make_room(Tree& tree, const Ranks::Letters& messages) {
+void make_room(Tree& tree, const Ranks::Messages& messages) {
   std::size_t words = 0;
   for (const auto& message : messages) words += message.size();
   const std::size_t cells =
@@ -136,10 +136,10 @@ void EssentialTree::graft(Tree& tree, double opening) {
   prune(tree);
   const std::vector<double> summaries = ranks_.of_all(summary(tree));
   const auto summary_of = [&](int rank) { return summaries.data() + index(rank) * summary_words(tree); };
-  Ranks::Letters out(index(ranks_.size()));
+  Ranks::Messages out(index(ranks_.size()));
   for (int k = 0; k < ranks_.size(); ++k)
     if (k != ranks_.rank()) out[index(k)] = message(tree, summary_of(k), opening);
-  const Ranks::Letters in = ranks_.exchange(out);
+  const Ranks::Messages in = ranks_.exchange(out);
   make_room(tree, in);
   for (int k = 0; k < ranks_.size(); ++k) {
     const bool empty = summary_of(k)[0] == 0;
@@ -187,8 +187,8 @@ EssentialTree::Message EssentialTree::message(const Tree& tree, const double* su
   return message;
 }
 
-void EssentialTree::account(const Tree& tree, const Ranks::Letters& out, const Ranks::Letters& in) {
-  const auto bytes = [](const Ranks::Letters& messages) {
+void EssentialTree::account(const Tree& tree, const Ranks::Messages& out, const Ranks::Messages& in) {
+  const auto bytes = [](const Ranks::Messages& messages) {
     std::size_t words = 0;
     for (const auto& message : messages) words += message.size();
     return static_cast<std::int64_t>(words * sizeof(double));

@@ -57,7 +57,7 @@ class EssentialTree {
 
   std::size_t root_in_summary() const;
   std::size_t summary_words(const Tree& tree) const;
-  void account(const Tree& tree, const Ranks::Letters& out, const Ranks::Letters& in);
+  void account(const Tree& tree, const Ranks::Messages& out, const Ranks::Messages& in);
 
   Ranks ranks_;
   int balls_;  ///< of a boundary tree, at most

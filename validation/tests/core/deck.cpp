@@ -717,15 +717,15 @@ TEST_CASE("Each way of the Coulomb sum can be named: no value hides behind a lon
   CHECK_THROWS_WITH(parse_deck(altered("", "coulomb tree spcae"), name), Catch::Contains("space"));
 }
 
-TEST_CASE("What a jet held in pieces cannot do is refused by name", "[deck]") {
-  const std::string pieces = "coulomb tree\nparallel distributed\n";
-  CHECK(parse_deck(altered("", pieces), name).parameters.parallel == ParallelData::distributed);
+TEST_CASE("What a jet held in subdomains cannot do is refused by name", "[deck]") {
+  const std::string subdomains = "coulomb tree\nparallel distributed\n";
+  CHECK(parse_deck(altered("", subdomains), name).parameters.parallel == ParallelData::distributed);
   for (const auto& [lines, says] :
        {std::pair{"coulomb expansions none", "parallel distributed: expected coulomb expansions local"},
         std::pair{"cutoff 1.", "expected no cutoff"}})
-    CHECK_THROWS_WITH(parse_deck(altered("", pieces + lines), name), Catch::Contains(says));
+    CHECK_THROWS_WITH(parse_deck(altered("", subdomains + lines), name), Catch::Contains(says));
   const auto adaptive = [&](const std::string& integrator, const std::string& lines) {
-    std::string text = altered("timestep 1.d-8", "tolerance 1.d-6\n" + pieces + lines);
+    std::string text = altered("timestep 1.d-8", "tolerance 1.d-6\n" + subdomains + lines);
     const std::string was = "integrator 2";
     return parse_deck(text.replace(text.find(was), was.size(), "integrator " + integrator), name).parameters;
   };

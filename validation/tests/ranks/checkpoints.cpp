@@ -20,13 +20,13 @@ constexpr const char* files[] = {"statdat.dat", "traj.xyz", "traj.h5", "traj.xdm
 /// A directory that all ranks know.
 struct SharedPlace {
   explicit SharedPlace(const Ranks& ranks) {
-    Ranks::Letters letters(index(ranks.size()));
+    Ranks::Messages messages(index(ranks.size()));
     if (ranks.first()) {
       own.emplace();
       const std::string name = own->path.string();
-      for (auto& letter : letters) letter.assign(name.begin(), name.end());
+      for (auto& message : messages) message.assign(name.begin(), name.end());
     }
-    const std::vector<double> name = ranks.exchange(letters).front();
+    const std::vector<double> name = ranks.exchange(messages).front();
     path = std::string(name.begin(), name.end());
   }
   std::optional<Place> own;
@@ -49,7 +49,7 @@ Deck two_rates() {
   return short_jet("multirate auto");
 }
 
-/// One whose pieces see each other through a tree, in an order of points that is kept over evaluations.
+/// One whose subdomains see each other through a tree, in an order of points that is kept over evaluations.
 Deck tree_in_space() {
   return deck(900, {"final time 2.d-5", "print time 3.d-6", "timestep 1.d-6", "integrator heun",
                     "coulomb accuracy 1.d-4", "coulomb tree space"});
@@ -130,7 +130,8 @@ double of_first(const Ranks& ranks, const std::function<double()>& find) {
 
 }  // namespace
 
-TEST_CASE("A jet in pieces that is stopped and resumed on as many ranks leaves the bytes of one left alone") {
+TEST_CASE(
+    "A jet in subdomains that is stopped and resumed on as many ranks leaves the bytes of one left alone") {
   const Ranks& ranks = started_ranks();
   for (const Deck& deck : {short_jet(), two_rates(), tree_in_space()}) {
     const SharedPlace whole(ranks), parts(ranks);
@@ -147,7 +148,7 @@ TEST_CASE("A jet in pieces that is stopped and resumed on as many ranks leaves t
   }
 }
 
-TEST_CASE("A jet in pieces goes on on another number of ranks, to the accuracy of field and steps") {
+TEST_CASE("A jet in subdomains goes on on another number of ranks, to the accuracy of field and steps") {
   const Ranks& ranks = started_ranks();
   // 1e-5 of the field moves observables by less than a tenth of it, as long as the steps are the same; two
   // rates take others where the field is another in its last digits, and tolerance 1e-6 is 1e-5 in x
@@ -167,7 +168,7 @@ TEST_CASE("A jet in pieces goes on on another number of ranks, to the accuracy o
   }
 }
 
-TEST_CASE("A checkpoint of pieces with a damaged record is passed over by all ranks") {
+TEST_CASE("A checkpoint of subdomains with a damaged record is passed over by all ranks") {
   const Ranks& ranks = started_ranks();
   const Deck deck = short_jet();
   const SharedPlace whole(ranks), parts(ranks);

@@ -4,14 +4,14 @@
 
 using namespace treejet;
 
-TEST_CASE("Letters between ranks arrive whole, empty ones as empty ones") {
+TEST_CASE("Messages between ranks arrive whole, empty ones as empty ones") {
   const Ranks& ranks = started_ranks();
-  Ranks::Letters out(static_cast<std::size_t>(ranks.size()));
+  Ranks::Messages out(static_cast<std::size_t>(ranks.size()));
   // rank a writes a + b words to rank b
   for (int to = 0; to < ranks.size(); ++to)
     out[static_cast<std::size_t>(to)].assign(static_cast<std::size_t>(ranks.rank() + to),
                                              100 * ranks.rank() + to);
-  const Ranks::Letters in = ranks.exchange(out);
+  const Ranks::Messages in = ranks.exchange(out);
   bool right = in.size() == out.size();
   for (int from = 0; right && from < ranks.size(); ++from)
     right = in[static_cast<std::size_t>(from)] ==

@@ -122,7 +122,7 @@ ends 2 "vectors" "ranks with different vectors" "$mpiexec" "$flag" 1 "$treejet" 
   "$flag" 1 env TREEJET_VECTOR_PATH=plain "$treejet" run "$pvp" --quiet --out wrong
 [ -e wrong ] && fail "ranks that could not begin left something behind"
 
-# a noisy jet in pieces: the rows of the replicated one, but for the accuracy of the field
+# a noisy jet in subdomains: the rows of the replicated one, but for the accuracy of the field
 alike() {  # WHAT DIRECTORY DIRECTORY
   for files in "$2" "$3"; do grep -v '^#' "$files/statdat.dat" >"$files.rows"; done
   paste "$2.rows" "$3.rows" | awk '
@@ -135,9 +135,9 @@ mv noisy.dat deck.dat
 grep -q '^multirate' deck.dat || sed -i 's/^finish/multirate no\nfinish/' deck.dat
 $run --out one || fail "the jet that is to be cut"
 sed -i 's/^finish/coulomb tree\ncoulomb accuracy 1.d-5\nparallel distributed\nfinish/' deck.dat
-on 3 $run --out pieces 2>err || fail "a jet in pieces: $(cat err)"
-alike "a jet in pieces" one pieces
-is "points in the trajectory of a jet in pieces" "$(head -1 pieces/traj.xyz)" "$(head -1 one/traj.xyz)"
+on 3 $run --out subdomains 2>err || fail "a jet in subdomains: $(cat err)"
+alike "a jet in subdomains" one subdomains
+is "points in the trajectory of a jet in subdomains" "$(head -1 subdomains/traj.xyz)" "$(head -1 one/traj.xyz)"
 
 # one of the ranks is killed: the others end, the launcher tells, and the run goes on on other ranks
 running() { for pid in killed/*.pid; do ps -o stat= -p "$(cat "$pid")"; done | grep -vc Z; }
@@ -162,8 +162,8 @@ kill_one() {  # FILE COMMAND...: of three ranks, once there is this file
 }
 kill_one lost/statdat.dat "$treejet" run "$pvp" --quiet --set "tolerance 1.d-12" --out lost
 kill_one cut/checkpoint $run --set "checkpoint 0.01" --set "final time 2.d-4" --out cut
-on 2 "$treejet" run --resume cut --quiet --walltime 600 2>err || fail "a jet in pieces resumed on other ranks: $(cat err)"
-on 3 $run --set "final time 2.d-4" --out pieces 2>err || fail "a jet in pieces: $(cat err)"
-alike "a jet in pieces that lost a rank" pieces cut
+on 2 "$treejet" run --resume cut --quiet --walltime 600 2>err || fail "a jet in subdomains resumed on other ranks: $(cat err)"
+on 3 $run --set "final time 2.d-4" --out subdomains 2>err || fail "a jet in subdomains: $(cat err)"
+alike "a jet in subdomains that lost a rank" subdomains cut
 
 [ $failures = 0 ] || exit 1

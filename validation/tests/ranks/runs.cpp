@@ -21,11 +21,11 @@ Parameters stream(int points, const Directives& steps, const Directives& more = 
   return read_deck(TREEJET_SOURCE_DIR "/validation/decks/stream.dat", all).parameters;
 }
 
-Directives in_pieces(const std::string& accuracy) {
+Directives in_subdomains(const std::string& accuracy) {
   return {"parallel distributed", "multirate no", "coulomb tree", "coulomb accuracy " + accuracy};
 }
 
-Directives in_pieces_at_two_rates(const std::string& accuracy) {
+Directives in_subdomains_at_two_rates(const std::string& accuracy) {
   return {"parallel distributed", "coulomb tree", "coulomb accuracy " + accuracy};
 }
 
@@ -56,8 +56,8 @@ Flight flight(const Parameters& p, const Ranks& ranks, double seconds, double in
   Flight f;
   f.effort = run.to(seconds, {&snapshots});
   f.jets = snapshots.jets;
-  if (const auto* pieces = dynamic_cast<const ChainDecomposition*>(&run.scene.decomposition()))
-    f.recuts = pieces->recuts();
+  if (const auto* subdomains = dynamic_cast<const ChainDecomposition*>(&run.scene.decomposition()))
+    f.recuts = subdomains->recuts();
   if (run.scene.multirate) f.full_evaluations = run.scene.multirate->full_evaluations();
   f.t = run.jet().t;
   return f;
@@ -86,41 +86,43 @@ double told_by_first(double found, const Ranks& ranks) {
 
 }  // namespace
 
-TEST_CASE("A run of pieces is the replicated one through insertions, removals and new cuts") {
+TEST_CASE("A run of subdomains is the replicated one through insertions, removals and new cuts") {
   const Ranks& ranks = started_ranks();
   const double seconds = 1e-3, interval = 2e-4;
   const Flight whole = flight(stream(60, {"tolerance 1.d-7", "multirate no"}), {}, seconds, interval);
-  const Parameters p = stream(60, {"tolerance 1.d-7"}, in_pieces("1.d-6"));
-  const Flight pieces = flight(p, ranks, seconds, interval);
-  CHECK(pieces.effort.released > 10);
-  CHECK(pieces.effort.removed > 10);
-  if (ranks.size() > 1) CHECK(pieces.recuts > 0);
+  const Parameters p = stream(60, {"tolerance 1.d-7"}, in_subdomains("1.d-6"));
+  const Flight subdomains = flight(p, ranks, seconds, interval);
+  CHECK(subdomains.effort.released > 10);
+  CHECK(subdomains.effort.removed > 10);
+  if (ranks.size() > 1) CHECK(subdomains.recuts > 0);
   // a millionth of the field moves no bead by more than that part of its way
-  CHECK(told_by_first(difference(pieces, whole, p), ranks) < 1e-6);
-  CHECK(ranks.agree(fmt::format("{} {} {}", pieces.t, pieces.effort.steps, pieces.effort.removed)));
+  CHECK(told_by_first(difference(subdomains, whole, p), ranks) < 1e-6);
+  CHECK(
+      ranks.agree(fmt::format("{} {} {}", subdomains.t, subdomains.effort.steps, subdomains.effort.removed)));
 }
 
-TEST_CASE("A run of pieces at two rates is the replicated one at two rates") {
+TEST_CASE("A run of subdomains at two rates is the replicated one at two rates") {
   const Ranks& ranks = started_ranks();
   for (const auto& [points, seconds] : {std::pair{60, 1e-3}, std::pair{300, 1e-4}}) {
     const double interval = seconds / 4;
     // less charge, or short waves would grow and nothing be continued
     const Directives calm = {"tolerance 1.d-7", "density charge 2.d3"};
     const Flight whole = flight(stream(points, calm), {}, seconds, interval);
-    const Parameters p = stream(points, calm, in_pieces_at_two_rates("1.d-6"));
-    const Flight pieces = flight(p, ranks, seconds, interval);
-    CHECK(pieces.effort.released > 3);
-    CHECK(pieces.effort.removed > 3);
-    CHECK(told_by_first(difference(pieces, whole, p), ranks) < 1e-6);  // as above
+    const Parameters p = stream(points, calm, in_subdomains_at_two_rates("1.d-6"));
+    const Flight subdomains = flight(p, ranks, seconds, interval);
+    CHECK(subdomains.effort.released > 3);
+    CHECK(subdomains.effort.removed > 3);
+    CHECK(told_by_first(difference(subdomains, whole, p), ranks) < 1e-6);  // as above
     // a step evaluates the ends only: full evaluations are few, and about as many here as there; when one is
     // due turns on errors of the field now and then
-    CHECK(pieces.full_evaluations < pieces.effort.evaluations / 4);
-    CHECK(double(pieces.full_evaluations) == Approx(double(whole.full_evaluations)).epsilon(0.1));
-    CHECK(ranks.agree(fmt::format("{} {} {}", pieces.t, pieces.effort.steps, pieces.full_evaluations)));
+    CHECK(subdomains.full_evaluations < subdomains.effort.evaluations / 4);
+    CHECK(double(subdomains.full_evaluations) == Approx(double(whole.full_evaluations)).epsilon(0.1));
+    CHECK(ranks.agree(
+        fmt::format("{} {} {}", subdomains.t, subdomains.effort.steps, subdomains.full_evaluations)));
   }
 }
 
-TEST_CASE("Pieces have every local term and meet events at the ends of steps as the whole does") {
+TEST_CASE("Subdomains have every local term and meet events at the ends of steps as the whole does") {
   const Ranks& ranks = started_ranks();
   const double seconds = 4e-4, interval = 1e-4;
   const std::vector<Directives> scenes = {
@@ -130,52 +132,53 @@ TEST_CASE("Pieces have every local term and meet events at the ends of steps as 
   for (const Directives& steps : scenes) {
     CAPTURE(steps);
     const Flight whole = flight(stream(60, steps, {"multirate no"}), {}, seconds, interval);
-    const Parameters p = stream(60, steps, in_pieces("1.d-6"));
-    const Flight pieces = flight(p, ranks, seconds, interval);
-    CHECK(pieces.effort.removed > 2);
-    CHECK(told_by_first(difference(pieces, whole, p), ranks) < 1e-6);  // as above
+    const Parameters p = stream(60, steps, in_subdomains("1.d-6"));
+    const Flight subdomains = flight(p, ranks, seconds, interval);
+    CHECK(subdomains.effort.removed > 2);
+    CHECK(told_by_first(difference(subdomains, whole, p), ranks) < 1e-6);  // as above
   }
 }
 
-TEST_CASE("Pieces of a jet that is fed by flow move as the whole one does") {
+TEST_CASE("Subdomains of a jet that is fed by flow move as the whole one does") {
   const Ranks& ranks = started_ranks();
   const double seconds = 4e-4, interval = 1e-4;
   const Directives fed = {"tolerance 1.d-7", "model slender", "flow rate 0.5 mL/h"};
   const Flight whole = flight(stream(60, fed, {"multirate no"}), {}, seconds, interval);
-  const Parameters p = stream(60, fed, in_pieces("1.d-6"));
-  const Flight pieces = flight(p, ranks, seconds, interval);
-  CHECK(pieces.effort.released > 3);
-  CHECK(told_by_first(difference(pieces, whole, p), ranks) < 1e-6);  // of the field, and so of the way
+  const Parameters p = stream(60, fed, in_subdomains("1.d-6"));
+  const Flight subdomains = flight(p, ranks, seconds, interval);
+  CHECK(subdomains.effort.released > 3);
+  CHECK(told_by_first(difference(subdomains, whole, p), ranks) < 1e-6);  // of the field, and so of the way
 }
 
-TEST_CASE("A run of pieces that see each other through expansions keeps the accuracy") {
+TEST_CASE("A run of subdomains that see each other through expansions keeps the accuracy") {
   const Ranks& ranks = started_ranks();
   const double seconds = 2e-5, interval = 1e-5;
   const Directives steps = {"timestep 1.d-6", "integrator heun"};
   const Flight whole = flight(stream(900, steps), {}, seconds, interval);
-  const Parameters p = stream(900, steps, in_pieces("1.d-4"));
-  const Flight pieces = flight(p, ranks, seconds, interval);
-  CHECK(pieces.effort.removed > 2);
-  const double apart = told_by_first(difference(pieces, whole, p), ranks);
+  const Parameters p = stream(900, steps, in_subdomains("1.d-4"));
+  const Flight subdomains = flight(p, ranks, seconds, interval);
+  CHECK(subdomains.effort.removed > 2);
+  const double apart = told_by_first(difference(subdomains, whole, p), ranks);
   CHECK(apart > 0);
   // the Coulomb force moves beads by less than a thousandth of the way meanwhile, and is 1e-4 off
   CHECK(apart < 1e-7);
 }
 
-TEST_CASE("Pieces of a jet of one bead, and of one that empties") {
+TEST_CASE("Subdomains of a jet of one bead, and of one that empties") {
   const Ranks& ranks = started_ranks();
   // from a single bead to several, with more ranks than beads
-  Parameters p = stream(2, {"tolerance 1.d-6"}, in_pieces("1.d-5"));
+  Parameters p = stream(2, {"tolerance 1.d-6"}, in_subdomains("1.d-5"));
   p.points = 1;
   p.initial_length = 0.1;
   Parameters alone = p;
   alone.parallel = ParallelData::replicated;
   alone.coulomb = CoulombSum::direct;
-  const Flight pieces = flight(p, ranks, 4e-3, 1e-3), whole = flight(alone, {}, 4e-3, 1e-3);
-  CHECK(pieces.effort.released > 3);
-  CHECK(told_by_first(difference(pieces, whole, p), ranks) < 1e-5);  // the accuracy of the field, as above
+  const Flight subdomains = flight(p, ranks, 4e-3, 1e-3), whole = flight(alone, {}, 4e-3, 1e-3);
+  CHECK(subdomains.effort.released > 3);
+  CHECK(told_by_first(difference(subdomains, whole, p), ranks) <
+        1e-5);  // the accuracy of the field, as above
   // nothing follows what leaves
-  p = stream(6, {"tolerance 1.d-6"}, in_pieces("1.d-5"));
+  p = stream(6, {"tolerance 1.d-6"}, in_subdomains("1.d-5"));
   p.inserting = false;
   p.perturb = false;
   const Flight emptied = flight(p, ranks, 1e-2, 1e-3);
@@ -194,9 +197,9 @@ TEST_CASE("Every rank knows which beads it holds, however many there are") {
   const Ranks& ranks = started_ranks();
   for (const Ends& ends : {Ends{1, 1}, Ends{12, 32}})
     for (const int beads : {1, 2, 5, 9, 40, 44, 60, 100}) {
-      const ChainDecomposition pieces(beads, ranks, ends);
-      const std::vector<int> rows = pieces.rows();
-      const Rows own = pieces.own();
+      const ChainDecomposition subdomains(beads, ranks, ends);
+      const std::vector<int> rows = subdomains.rows();
+      const Rows own = subdomains.own();
       bool right = std::is_sorted(rows.begin(), rows.end(), std::less_equal<>());
       for (int i = own.first + 1; i < own.last; ++i)
         right = right && rows.at(static_cast<std::size_t>(i)) == rows.at(static_cast<std::size_t>(i) - 1) + 1;
