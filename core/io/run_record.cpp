@@ -82,7 +82,7 @@ RunRecord::RunRecord(const Setting& setting) : path_(setting.directory / run_rec
   if (there && setting.existing == Existing::keep) throw exists_already(path_);
   Json record =
       there && setting.existing == Existing::resume ? record_to_continue(setting, path_) : record_of(setting);
-  for (const char* of_a_completed_run : {"effort", "means"}) record.erase(of_a_completed_run);
+  for (const char* of_a_completed_run : {"effort", "fixed_step", "means"}) record.erase(of_a_completed_run);
   record["deck"] = deck_of(setting.made_by);  // the end of a run that is extended changes
   record["segments"].push_back({{"started", now()},
                                 {"host", host()},
@@ -117,6 +117,7 @@ void RunRecord::end(const char* outcome, const RunResults& results) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   for (const auto& [name, seconds] : results.times) segment[name] = seconds;
   for (const auto& [name, count] : results.effort) record["effort"][name] = count;
+  for (const auto& [name, value] : results.fixed_step) record["fixed_step"][name] = value;
   for (const RecordedMean& m : results.means)
     record["means"][m.key] = {{"unit", m.unit},     {"mean", m.mean},   {"error", m.error},  {"from", m.from},
                               {"values", m.values}, {"block", m.block}, {"steady", m.steady}};

@@ -6,15 +6,16 @@
 ///      "segments": [{"started", "host", "ranks", "threads", "ended", "wall_seconds", "outcome", "compute",
 ///                    "exchange", "wait", "gatherings"}, ...],
 ///      "effort": {"evaluations", "steps", "rejected", "retaken", "inserted", "arrived", "beads"},
+///      "fixed_step": {"step_error", "samples", "event_lateness"},
 ///      "means": {"vc": {"unit", "mean", "error", "from", "values", "block", "steady"}, ...}}
 ///
 /// A segment is one process: the first run or a resumption. Its outcome is "running" until it is over, and
 /// stays so if the program is killed; then "completed", "stopped early" or "failed". Times are UTC; compute,
 /// exchange and wait are seconds of a rank in the mean. Effort, of all segments together, and means
-/// (core/observe/steady_mean.hpp) are those of a completed run.
-/// This is
-/// the only file of a run whose bytes depend on when, where and on how many cores it ran. The only place that
-/// knows the JSON library.
+/// (core/observe/steady_mean.hpp) are those of a completed run;
+/// fixed_step (core/observe/step_errors.hpp) is there in runs by `timestep`. This is the only file of a run
+/// whose bytes depend on when, where and on how many cores it ran. The only place that knows the JSON
+/// library.
 
 #include <chrono>
 #include <filesystem>
@@ -42,6 +43,7 @@ struct RunResults {
   std::vector<std::pair<std::string, std::int64_t>> effort;
   std::vector<std::pair<std::string, double>> times;  ///< s, of this segment
   std::vector<RecordedMean> means;
+  std::vector<std::pair<std::string, double>> fixed_step = {};  ///< empty: not by `timestep`
 };
 
 class RunRecord {

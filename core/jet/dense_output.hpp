@@ -21,6 +21,8 @@ class DenseOutput {
 
   double begin() const { return begin_.t; }
   const State<D>& first() const { return begin_.y; }
+  const SolutionPoint<D>& from() const { return begin_; }
+  const SolutionPoint<D>& to() const { return end_; }
 
   State<D> at(double t) const {
     State<D> y(begin_.y.rows(), begin_.y.cols());

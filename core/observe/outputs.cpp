@@ -5,13 +5,16 @@
 #include <limits>
 
 #include "core/io/output_files.hpp"
+#include "core/jet/schemes.hpp"
 #include "core/observe/accuracy_warning.hpp"
 #include "core/observe/output_hdf5.hpp"
 #include "core/observe/output_table.hpp"
 #include "core/observe/output_xyz.hpp"
+#include "core/observe/plausibility.hpp"
 #include "core/observe/progress.hpp"
 #include "core/observe/recorder.hpp"
 #include "core/observe/steady_mean.hpp"
+#include "core/observe/step_errors.hpp"
 #include "core/restart/checkpoint.hpp"
 
 namespace treejet {
@@ -125,12 +128,26 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
     watch("traj.h5", std::make_unique<Frames>(frames, hdf5), decomposition);
   }
   if (!files_.empty()) keep_record(setting);
-  if (force_error_)
-    watchers_.push_back({"accuracy", std::make_unique<AccuracyWarning<D>>(*force_error_, s.time)});
+  look_for_trouble(p, nozzle, collector);
   if (!setting.quiet) {
     watchers_.push_back({"progress", std::make_unique<Progress<D>>(p.final_time / s.time, s.time,
                                                                    stderr_is_interactive(), decomposition)});
   }
+}
+
+template <int D>
+void Outputs<D>::look_for_trouble(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector) {
+  const double time_unit = scales(p).time;
+  if (force_error_)
+    watchers_.push_back({"accuracy", std::make_unique<AccuracyWarning<D>>(*force_error_, time_unit)});
+  // white noise has no slope that its change is the integral of
+  if (!properties(p.integrator).adaptive && p.integrator != Scheme::sra1 &&
+      p.parallel == ParallelData::replicated) {
+    auto errors = std::make_unique<StepErrors<D>>(nozzle, collector, event_rule(p), time_unit);
+    step_errors_ = errors.get();
+    watchers_.push_back({"fixed step", std::move(errors)});
+  }
+  watchers_.push_back({"plausibility", std::make_unique<Plausibility<D>>(p, nozzle)});
 }
 
 template <int D>
@@ -207,6 +224,7 @@ std::vector<std::string> Outputs<D>::summary() const {
                     trajectory_->most_beads(), maxnum_));
   }
   if (force_error_) lines.push_back(summary_of(*force_error_));
+  if (step_errors_) lines.push_back(step_errors_->summary());
   if (means_)
     for (auto& line : description(means_->means())) lines.push_back(std::move(line));
   return lines;
@@ -216,6 +234,7 @@ template <int D>
 void Outputs<D>::complete(RunResults results) {
   if (!record_) return;
   if (means_) results.means = means_->means();
+  if (step_errors_) results.fixed_step = step_errors_->results();
   record_->complete(results);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-/// The watchers that a deck asks for: terminal table, statdat.dat, traj.xyz, traj.h5, progress, and a warning
-/// should approximate forces miss their accuracy. What it does not ask for is not made: no file, no array.
-/// Beside any files of a run stands the record of it, run.json.
+/// The watchers that a deck asks for: terminal table, statdat.dat, traj.xyz, traj.h5, progress, and warnings
+/// should approximate forces or fixed steps miss their accuracy or the jet be an absurd one. What it does not
+/// ask for is not made: no file, no array. Beside any files of a run stands the record of it, run.json.
 
 #include <filesystem>
 #include <memory>
@@ -27,6 +27,8 @@ template <int D>
 class XyzTrajectory;
 class H5mdTrajectory;
 class SteadyMeans;
+template <int D>
+class StepErrors;
 class CheckpointParts;
 
 struct OutputSetting {
@@ -71,6 +73,7 @@ class Outputs {
   std::shared_ptr<H5mdTrajectory> trajectory_file(const Parameters& p, const OutputSetting& setting,
                                                   const OwnObservables<D>& own);
   void keep_record(const OutputSetting& setting);
+  void look_for_trouble(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector);
 
   struct Named {
     std::string name;  ///< of the part of a checkpoint that tells its state
@@ -81,6 +84,7 @@ class Outputs {
   std::vector<std::filesystem::path> files_;
   std::unique_ptr<RunRecord> record_;
   std::shared_ptr<SteadyMeans> means_;
+  const StepErrors<D>* step_errors_ = nullptr;  ///< of fixed steps
   const XyzTrajectory<D>* trajectory_ = nullptr;
   bool contributes_ = false;  ///< to the outputs of another process
   int maxnum_;

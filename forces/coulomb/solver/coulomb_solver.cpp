@@ -136,6 +136,8 @@ void CoulombReport::record(const SampledError& sampled) {
   error.max = sampled.max;
   error.worst_l2 = std::max(error.worst_l2, error.l2);
   error.worst_max = std::max(error.worst_max, error.max);
+  error.own = sampled.own;
+  error.worst_own = std::max(error.worst_own, error.own);
   ++error.samples;
   error.missed += error.l2 > error.asked;
 }
@@ -146,7 +148,7 @@ void CoulombSolver::choose(const PointCharges<3>& points, int all, Threads threa
   report_.reason = choice.reason;
   report_.shape = choice.shape;
   report_.work = choice.work;
-  report_.expected_error = report_.error.l2 = report_.error.max = 0;
+  report_.expected_error = report_.error.l2 = report_.error.max = report_.error.own = 0;
   if (!choice.direct) report_.record(choice.error);
   report_.error.method = description(report_);
   ++report_.error.choices;

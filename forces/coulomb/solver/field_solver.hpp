@@ -23,6 +23,7 @@ namespace treejet {
 struct SampledError {
   double l2 = 0, max = 0;  ///< root mean square and largest over the sample
   double bound = 0;        ///< upper estimate of the l2 of all points
+  double own = 0;          ///< which 99 in 100 points' errors relative to their own field stay below
 };
 
 struct CoulombReport {

@@ -34,6 +34,33 @@ std::vector<int> sample_leaves(int all, int count) {
   return sample;
 }
 
+/// How many points err by how much of their own field, in classes of a quarter of an octave: counts of
+/// several ranks can be added.
+class OwnErrors {
+ public:
+  /// Of a point, squared; what is not finite is passed over.
+  void add(double error, double field) {
+    const double place = classes_an_octave * std::log2(error / field) / 2 + one;
+    if (std::isfinite(error) && field > 0)
+      ++counts_[index(static_cast<int>(std::clamp(place, 0.0, double(counts_.size() - 1))))];
+  }
+
+  /// The upper edge of the class that 99 in 100 points do not go beyond.
+  double of_99_in_100(const Ranks& ranks) const {
+    std::array<double, size> counts = counts_;
+    ranks.sum(counts);
+    double above = 0.01 * std::accumulate(counts.begin(), counts.end(), 0.0);
+    if (above == 0) return 0;
+    int k = size - 1;
+    while ((above -= counts[index(k)]) >= 0) --k;
+    return std::exp2(double(k + 1 - one) / classes_an_octave);
+  }
+
+ private:
+  static constexpr int classes_an_octave = 4, size = 256, one = 240;  // the class that begins at 1
+  std::array<double, size> counts_ = {};
+};
+
 /// The squared errors of sampled leaves, added up.
 struct LeafErrors {
   double leaves = 0, sum = 0, sum_squares = 0, largest = 0;
@@ -58,12 +85,12 @@ struct LeafErrors {
   }
 
   /// The bound is the mean over the sampled leaves plus two standard deviations of that mean, times a margin.
-  SampledError relative_to(double mean_square) const {
+  SampledError relative_to(double mean_square, double own) const {
     if (mean_square == 0 || leaves == 0) return {};
     const double mean = sum / leaves;
     const double spread = std::sqrt(std::max(0.0, sum_squares / leaves - mean * mean) / leaves);
     return {std::sqrt(mean / mean_square), std::sqrt(largest / mean_square),
-            margin * std::sqrt((mean + 2 * spread) / mean_square)};
+            margin * std::sqrt((mean + 2 * spread) / mean_square), own};
   }
 };
 
@@ -163,16 +190,24 @@ SampledError CoulombSample::error(TreeField& tree, Threads threads) const {
   const auto E = tree.sums();
   const auto leaf = index(tree.shape().leaf);
   LeafErrors errors;
+  OwnErrors own;
   std::vector<double> squares;
   for (std::size_t k = 0; k < leaves_.size(); ++k) {
     const Rows points = tree.tree().cells.leaf_points(leaves_[k]);
     squares.assign(index(points.size()), 0.0);
-    for (std::size_t i = 0; i < squares.size(); ++i)
-      for (std::size_t e = 0; e < 3; ++e)
-        squares[i] += std::pow(E[e][index(points.first) + i] - direct_[e][k * leaf + i], 2);
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+      double field = 0;
+      for (std::size_t e = 0; e < 3; ++e) {
+        const double exact = direct_[e][k * leaf + i];
+        squares[i] += std::pow(E[e][index(points.first) + i] - exact, 2);
+        field += exact * exact;
+      }
+      own.add(squares[i], field);
+    }
     errors.add(squares);
   }
-  return errors.of_all(tree.ranks().subdomains).relative_to(mean_square_);
+  const Ranks& ranks = tree.ranks().subdomains;
+  return errors.of_all(ranks).relative_to(mean_square_, own.of_99_in_100(ranks));
 }
 
 }  // namespace treejet

@@ -58,7 +58,7 @@ is "files of a run that asks for statdat.dat only" "$(ls none | tr '\n' ' ')" "c
 expect 0 "a run with a tree" short --out tree --set "points 600" --set "initial length 12" --set "coulomb tree" --set "coulomb accuracy 1.d-4" --set "printstat list t n ferr ferrmax"
 grep -q '^# t = .*tree of order' tree/statdat.dat || fail "statdat.dat does not tell how the forces were computed"
 grep -q '^forces: .*asked for 0.0001' out || fail "the summary does not tell the force error"
-is "warnings of a run with a tree" "$(grep -c warning err)" 0
+is "warnings of its accuracy in a run with a tree" "$(grep -c "warning.*accuracy" err)" 0
 expect 0 "a run that misses its accuracy" short --out missed --set "points 600" --set "initial length 12" --set "coulomb tree" --set "coulomb accuracy 1.d-9" --set "coulomb order 2" --set "coulomb opening 0.9"
 grep -q 'warning.*accuracy' err || fail "a missed accuracy is not warned of"
 grep -q 'ACCURACY MISSED' out || fail "the summary does not tell of a missed accuracy"
