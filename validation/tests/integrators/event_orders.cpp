@@ -1,5 +1,6 @@
 /// Orders of convergence over whole runs with insertions and removals.
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
 
@@ -119,4 +120,36 @@ TEMPLATE_TEST_CASE("With events seen at step ends every scheme is of first order
     CAPTURE(name(scheme), e);
     CHECK(mean_order(e) == Approx(1).margin(0.3));
   }
+}
+
+TEST_CASE("Events of a step happen in their order, each at its own time") {
+  // no force: beads 0.3 cm apart at 7 cm/s to a collector at 1 cm, in steps of half an interval
+  Parameters p = example("single-bead");
+  p.density_charge = 0;
+  p.elastic_modulus = p.viscosity = 1e-9;  // too thin to be felt
+  p.nozzle_velocity = 7;
+  p.initial_length = 0.6;
+  p.points = 2;
+  p.collector_distance = 1;
+  p.removing = p.inserting = true;
+  struct Times final : Observer<1> {
+    void event(EventKind kind, const Jet<1>& jet) override {
+      all.push_back(jet.t);
+      by_kind[static_cast<std::size_t>(kind)].push_back(jet.t);
+    }
+    std::vector<double> all;
+    std::array<std::vector<double>, 4> by_kind;
+  } times;
+  Run<1> run(with_steps(p, Scheme::rk4, 0.02));
+  run.to(0.3, {&times});
+  CHECK(std::is_sorted(times.all.begin(), times.all.end()));
+  const auto expect = [&](EventKind kind, double first) {
+    const auto& found = times.by_kind[static_cast<std::size_t>(kind)];
+    REQUIRE(found.size() > 4);
+    for (std::size_t k = 0; k < found.size(); ++k)  // motion is uniform, and so met exactly but for round-off
+      CHECK(found[k] * run.unit.time == Approx((first + 0.3 * double(k)) / 7).epsilon(1e-10));
+  };
+  expect(EventKind::place, 0.15);  // at 1.5 elements from the nozzle, from one on
+  expect(EventKind::release, 0.3);
+  expect(EventKind::removal, 0.4);
 }
