@@ -308,3 +308,13 @@ TEST_CASE("Elements are not split where their halves would be shorter than twice
   p.refinement_threshold = 2;
   CHECK(Spacing<3>(p).refinement(straight_jet(std::vector<double>(12, 1), 10)).empty());
 }
+
+TEST_CASE(
+    "An element waits for a larger neighbour, which is split first, and the youngest ones are left alone") {
+  Jet<3> jet = straight_jet({1, 0.5, 1, 1, 1, 1, 1, 1}, 1);
+  for (Eigen::Index bead : {0, 1}) jet.y(bead, 0) += 5;  // the second element is long now
+  CHECK(spacing(2).refinement(jet)[0].rows == std::vector<Eigen::Index>{0, 2});
+  const auto all = spacing(2).refinement(straight_jet(std::vector<double>(12, 1), 10))[0].rows;
+  CHECK(all.size() == 9);
+  CHECK(all.back() == 8);
+}
