@@ -2,7 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/base/number.hpp"
 #include "core/commands/command_line.hpp"
+#include "core/deck/directives.hpp"
 #include "integrators/run/error_estimate.hpp"
 #include "validation/support/example.hpp"
 
@@ -39,4 +41,19 @@ TEST_CASE("The difference of two tables keeps the time and leaves out wall clock
   const TableOfRows d = difference(first, second);
   CHECK(d.labels == std::vector<std::string>{"t[s]", "x[cm]"});
   CHECK(d.rows == std::vector<std::vector<double>>{{0, 0}, {0.5, 0.5}});
+}
+
+TEST_CASE("A quantity with a unit is held to the limits of a bare number") {
+  Parameters p = example("pvp");
+  const auto problem = [&](const char* number, const char* unit) {
+    return assign(directive("final time"), std::vector<std::string>{number, unit}, p);
+  };
+  CHECK(problem("250", "ms").empty());
+  CHECK(p.final_time == 0.25);
+  CHECK_THAT(problem("-1", "ms"), Catch::Contains("positive"));
+  CHECK_THAT(problem("1e-320", "ns"), Catch::Contains("double precision"));  // would be 0
+  CHECK_THAT(problem("3", "cm"), Catch::Contains("a length"));
+  CHECK_THAT(problem("3", "s^99"), Catch::Contains("no unit"));
+  CHECK(p.final_time == 0.25);
+  CHECK(real_number("0e5").problem.empty());
 }
