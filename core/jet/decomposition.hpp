@@ -17,15 +17,15 @@ namespace treejet {
 
 /// Of a checkpoint of a chain in subdomains: so many beads from this one on, oldest first; or, without beads,
 /// what only the rank with that number knows.
-struct PieceRecord {
+struct SubdomainRecord {
   std::int64_t first = 0, count = 0;
   std::string bytes;
 };
 /// Takes a record into a checkpoint; gives those of a checkpoint that are wanted, known by first and count.
-using WriteRecord = std::function<void(const PieceRecord&)>;
+using WriteRecord = std::function<void(const SubdomainRecord&)>;
 using ReadRecords =
     std::function<void(const std::function<bool(std::int64_t first, std::int64_t count)>& wanted,
-                       const std::function<void(const PieceRecord&)>& take)>;
+                       const std::function<void(const SubdomainRecord&)>& take)>;
 
 template <int D>
 class Decomposition {

@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
 
@@ -21,13 +22,13 @@ constexpr const char *newest = checkpoint_names[0], *older = checkpoint_names[1]
 constexpr const char* unfinished = "checkpoint.new";
 
 /// In front of the bytes. The number changes with the layout of what follows.
-constexpr std::string_view title = "treejet checkpoint 4\n";
+constexpr std::string_view title = "treejet checkpoint 5\n";
 
 struct Seal {
   std::uint64_t byte_order = 0x0102030405060708, length = 0, checksum = 0;
 };
 
-/// In front of a record.
+/// In front of a record; the checksum is that of the numbers before it and of the record.
 struct RecordSeal {
   std::int64_t first = 0, count = 0;
   std::uint64_t length = 0, checksum = 0;
@@ -38,8 +39,13 @@ std::string_view bytes_of(const T& plain) {
   return {reinterpret_cast<const char*>(&plain), sizeof plain};
 }
 
-std::uint64_t checksum(std::string_view bytes) {
-  return crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+/// Of bytes that follow others, whose checksum is `before`.
+std::uint64_t checksum(std::string_view bytes, std::uint64_t before = 0) {
+  return crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+}
+
+std::uint64_t checksum(const RecordSeal& seal, std::string_view record) {
+  return checksum(record, checksum(bytes_of(seal).substr(0, offsetof(RecordSeal, checksum))));
 }
 
 }  // namespace
@@ -79,9 +85,14 @@ class Reader {
     at_ += length;
     return found;
   }
-  std::string sealed(std::uint64_t length, std::uint64_t sum) {
-    std::string found = bytes(length);
-    if (checksum(found) != sum) refuse(file_, "damaged: wrong checksum");
+  std::string sealed(const Seal& seal) {
+    std::string found = bytes(seal.length);
+    if (checksum(found) != seal.checksum) refuse(file_, "damaged: wrong checksum");
+    return found;
+  }
+  std::string sealed(const RecordSeal& seal) {
+    std::string found = bytes(seal.length);
+    if (checksum(seal, found) != seal.checksum) refuse(file_, "damaged: wrong checksum");
     return found;
   }
   template <class T>
@@ -114,7 +125,7 @@ Checkpoint read_head(Reader& reader, const fs::path& file) {
   const auto seal = reader.plain<Seal>();
   if (seal.byte_order != Seal().byte_order) refuse(file, "a checkpoint of a machine with another byte order");
   Checkpoint checkpoint;
-  const std::string body = reader.sealed(seal.length, seal.checksum);
+  const std::string body = reader.sealed(seal);
   Archive archive(body);
   archive(checkpoint);
   archive.expect_end();
@@ -125,11 +136,11 @@ Checkpoint read_head(Reader& reader, const fs::path& file) {
 /// The records that are wanted: all `take` needs to know of the others is how many there are.
 void read_records(Reader& reader, std::int64_t records,
                   const std::function<bool(std::int64_t record, const RecordSeal&)>& wanted,
-                  const std::function<void(const PieceRecord&)>& take) {
+                  const std::function<void(const SubdomainRecord&)>& take) {
   for (std::int64_t k = 0; k < records; ++k) {
     const auto seal = reader.plain<RecordSeal>();
     if (wanted(k, seal))
-      take({seal.first, seal.count, reader.sealed(seal.length, seal.checksum)});
+      take({seal.first, seal.count, reader.sealed(seal)});
     else
       reader.pass_over(seal.length);
   }
@@ -143,7 +154,7 @@ Checkpoint read_checkpoint(const fs::path& file, const Readers& readers) {
   read_records(
       reader, checkpoint.records,
       [&](std::int64_t k, const RecordSeal&) { return k % readers.count == readers.number; },
-      [](const PieceRecord&) {});
+      [](const SubdomainRecord&) {});
   if (reader.left() > 0) refuse(file, "damaged: bytes behind its end");
   return checkpoint;
 }
@@ -223,9 +234,11 @@ void Checkpoints::write(Checkpoint& checkpoint, const std::function<void(const W
   file.write(title);
   file.write(bytes_of(seal));
   file.write(payload);
-  give_records([&file](const PieceRecord& record) {
+  give_records([&file](const SubdomainRecord& record) {
     const auto& [first, count, bytes] = record;
-    file.write(bytes_of(RecordSeal{first, count, bytes.size(), checksum(bytes)}));
+    RecordSeal seal{first, count, bytes.size()};
+    seal.checksum = checksum(seal, bytes);
+    file.write(bytes_of(seal));
     file.write(bytes);
   });
   file.sync();

@@ -315,7 +315,7 @@ void ChainDecomposition::read(Jet<3>& jet, const ReadRecords& records) {
     return count > 0 ? !parts_here(first, count).empty()
                      : cut_as_saved_ && own_state_ && first == ranks_.rank();
   };
-  records(wanted, [&](const PieceRecord& record) {
+  records(wanted, [&](const SubdomainRecord& record) {
     Archive archive(record.bytes);
     if (record.count == 0) return own_state_(archive), archive.expect_end();
     Saved some;

@@ -177,9 +177,16 @@ TEST_CASE("A checkpoint of subdomains with a damaged record is passed over by al
   resume(parts.path, ranks, 20);
   ranks.greatest(0);
   if (ranks.first()) {
-    std::string bytes = read_whole(parts.path / "checkpoint");
-    bytes[bytes.size() - bytes.size() / 8] ^= 1;  // the records are the most of the file
-    std::ofstream(parts.path / "checkpoint", std::ios::binary) << bytes;
+    const auto file = parts.path / "checkpoint";
+    std::string bytes = read_whole(file);
+    const std::size_t last = bytes.size() - 1;
+    // from inside the head to the end, numbers in front of records included
+    for (std::size_t at = last % 7 + last / 2; at <= last; at += 7) {
+      bytes[at] ^= 1;
+      std::ofstream(file, std::ios::binary) << bytes;
+      CHECK_THROWS_AS(read_checkpoint(file), FileError);
+      if (at + 7 <= last) bytes[at] ^= 1;
+    }
   }
   ranks.greatest(0);
   const Resumption older = resumption(parts.path, program({}), {}, readers(ranks));
