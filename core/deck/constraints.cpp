@@ -33,6 +33,7 @@ class Relations {
     perturbation();
     coulomb_sum();
     self_field();
+    bending();
     refinement();
     feed();
     fluid();
@@ -141,6 +142,24 @@ class Relations {
              "elements ({:.6g} cm) are shorter than twice nozzle cross ({} cm): too short for a slender "
              "tube, its self-field is limited",
              l_step.value_or(0), p_.nozzle_cross));
+  }
+
+  void bending() {
+    if (!p_.bending) return;
+    error(p_.system == 1, {"bending", "system"}, "expected system 3: a straight jet does not bend");
+    error(stress_law(p_) != StressLawKind::maxwell || p_.hbfluid || p_.yield_stress > 0 ||
+              p_.solvent_viscosity > 0,
+          {"bending", "stress law", "kvfluid", "hbfluid", "yield stress", "solvent viscosity"},
+          "expected stress law maxwell without yield stress, hbfluid or solvent viscosity: only of a linear "
+          "law is the moment known from the strain rate of the axis");
+    error(p_.evaporation, {"bending", "evaporation"},
+          "expected no evaporation: the section would dry unevenly");
+    error(p_.refinement, {"bending", "dynamic refinement"},
+          "expected no dynamic refinement: moments are not split nor merged; shorter elements do instead");
+    error(p_.parallel == ParallelData::distributed, {"bending", "parallel"}, "expected parallel replicated");
+    error(composable() && properties(chosen_scheme(p_)).implicit, {"bending", "integrator"},
+          fmt::format("expected integrator verner6 or dopri5: kencarp5{} does not solve for moments",
+                      p_.integrator == Scheme::automatic ? ", which auto takes for this scene," : ""));
   }
 
   void refinement() {

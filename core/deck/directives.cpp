@@ -189,6 +189,9 @@ const Directive table[] = {
     {.words = "cutoff", .member = &P::cutoff, .unit = "cm", .check = positive,
      .meaning = "reach of the Coulomb force along the jet, measured at the nozzle", .absent = "the full sum"},
 
+    {.words = "bending", .member = &P::bending,
+     .meaning = "the thread resists bending, by Maxwell's stresses across its section (system 3): stiffness elastic modulus times "
+                "pi a^4 / 4"},
     {.words = "self field", .member = &P::self_field,
      .meaning = "field of an element on itself: none, beads are point charges (point), or that of a thin charged tube "
                 "(slender), with which the force on a bend does not depend on the length of the elements"},

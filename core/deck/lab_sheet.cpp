@@ -93,10 +93,14 @@ class Sheet {
     if (alpha > 0)
       add({"capillary", "capillary number", p_.viscosity * v / alpha, "",
            "viscous stress over capillary pressure at the nozzle: below 1 surface tension rules there"});
-    add({"electrostatic", "electrostatic number",
-         line_charge() * line_charge() / (section_ * p_.elastic_modulus), "",
+    const double number = line_charge() * line_charge() / (section_ * p_.elastic_modulus);
+    constexpr double most_for_tubes = 0.5;
+    add({"electrostatic", "electrostatic number", number, "",
          "repulsion along the jet, lambda^2/(pi a^2), over the elastic modulus: above 1 charge stretches "
-         "it"});
+         "it",
+         p_.self_field == SelfField::slender && number > most_for_tubes
+             ? "above 1/2 the speed near the nozzle depends on the elements: docs/accuracy.md, The edge"
+             : ""});
   }
 
   void surface_charge() {

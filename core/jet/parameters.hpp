@@ -102,6 +102,7 @@ struct Parameters : CoulombSetting, FieldSetting, AirSetting, NoiseSetting {
   double external_potential = 0;  ///< statV
   double surface_tension = 0;     ///< g/s^2
   SurfaceModel surface_model = SurfaceModel::paper;
+  bool bending = false;
   SelfField self_field = SelfField::point;
 
   StressLawKind stress_law = StressLawKind::maxwell;

@@ -12,6 +12,7 @@
 #include "forces/distributed/distributed_motion.hpp"
 #include "forces/scene/coulomb_settings.hpp"
 #include "forces/terms/air_drag.hpp"
+#include "forces/terms/bending.hpp"
 #include "forces/terms/constitutive.hpp"
 #include "forces/terms/coulomb_force.hpp"
 #include "forces/terms/evaporation.hpp"
@@ -121,6 +122,11 @@ class Composer {
     } else {
       left_out.push_back({"surface tension", "a straight jet (system 1) has no curvature"});
     }
+    if constexpr (D == 3)
+      add(
+          p_.bending, "no bending yes", [&] { return std::make_unique<Bending>(bending()); }, "bending");
+    else
+      left_out.push_back({"bending", "a straight jet (system 1) has no curvature"});
     add(
         p_.self_field == SelfField::slender && g_.Q != 0,
         g_.Q == 0 ? "density charge is 0" : "self field point",
@@ -151,6 +157,11 @@ class Composer {
          p_.evaporation_model == EvaporationModel::vapour ? "evaporation model vapour"
                                                           : "evaporation model jetspin",
          "no evaporation yes");
+    if constexpr (D == 3)
+      for (int k = 0; k < 3 && p_.bending; ++k) {
+        rates.push_back(std::make_unique<BendingColumn>(bending(), k));
+        columns.push_back(rates.back()->column());
+      }
     for (auto& rate : own.columns) {
       columns.push_back(rate->column());
       composed.push_back({"column " + columns.back().name, "the caller's own"});
@@ -284,6 +295,12 @@ class Composer {
     const Scales s = scales(p_);
     return std::make_unique<HerschelBulkley<D>>(p_.yield_stress / s.stress, scaled_consistency(p_),
                                                 p_.hb_index, small_strain_rate(p_) * s.time);
+  }
+
+  /// Maxwell's law has no column, and what dries does not resist.
+  BendingMoment bending() const {
+    const Scales s = scales(p_);
+    return BendingMoment({g_.F_ve, section(), /*first*/ 0, p_.inserting, s.mass * s.velocity * s.velocity});
   }
 
   Section section() const { return {p_.nozzle_cross / scales(p_).length, g_.L_step}; }

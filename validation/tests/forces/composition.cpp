@@ -48,8 +48,8 @@ TEST_CASE("The PVP jet is composed of every term") {
   CHECK(terms(scene) == Names{viscoelastic, field, gravity, tension, coulomb});
   CHECK(scene.motion->stress_law().name() == "Maxwell stress");
   CHECK(named(scene.left_out) == Names{"Herschel-Bulkley stress", "slender self-field", "viscous tension",
-                                       "evaporation", "air drag", "air lift", "friction", "random force",
-                                       "splitting and merging of elements"});
+                                       "bending", "evaporation", "air drag", "air lift", "friction",
+                                       "random force", "splitting and merging of elements"});
 }
 
 TEST_CASE("The single bead has neither gravity nor surface tension, events or a circling nozzle") {
@@ -57,9 +57,10 @@ TEST_CASE("The single bead has neither gravity nor surface tension, events or a 
   CHECK(terms(scene) == Names{viscoelastic, field, coulomb});
   CHECK(named(scene.composed) == Names{"Maxwell stress", viscoelastic, field, coulomb});
   CHECK(named(scene.left_out) == Names{"Herschel-Bulkley stress", "viscous tension", "evaporation", gravity,
-                                       tension, "slender self-field", "air drag", "air lift", "friction",
-                                       "random force", "insertion at the nozzle", "removal at the collector",
-                                       "circling nozzle", "two rates", "splitting and merging of elements"});
+                                       tension, "bending", "slender self-field", "air drag", "air lift",
+                                       "friction", "random force", "insertion at the nozzle",
+                                       "removal at the collector", "circling nozzle", "two rates",
+                                       "splitting and merging of elements"});
   CHECK(reason(scene, gravity) == "no gravity yes");
   CHECK(reason(scene, tension) == "a straight jet (system 1) has no curvature");
   CHECK_FALSE(scene.nozzle.inserting());
