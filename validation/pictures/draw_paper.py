@@ -166,6 +166,22 @@ def draw_convergence_straight(rows, directory):
     draw_convergence(rows, directory, "convergence-straight", ("current [statC/s]", "vc [cm/s]", "rc [cm]"))
 
 
+def draw_convergence_flow(rows, directory):
+    figure, panels = plt.subplots(1, 2, figsize=(9, 4), layout="constrained")
+    step = column(rows, "l_step [cm]")
+    for panel, what in zip(panels, ("aperture [degree]", "path [cm]")):
+        for field, colour in (("points", "#d62828"), ("slender", "#00798c"), ("adaptive", "#edae49")):
+            panel.semilogx(step, column(rows, f"{field}: {what}"), color=colour, marker="o", markersize=4, label=field)
+        limit = column(rows, f"limit: {what}")[-1]
+        panel.axhline(limit, color="#555555", linestyle="--", linewidth=0.9, label="adaptive, shortest")
+        panel.axhspan(0.97 * limit, 1.03 * limit, color="#cccccc", alpha=0.35, label="3 % of it")
+        panel.invert_xaxis()
+        panel.minorticks_off()
+        panel.set_xticks(step, [f"{s:g}" for s in step], rotation=45)
+        panel.set(xlabel="length of an element at the nozzle (cm)", title=what)
+    finish(figure, panels, directory / "convergence-flow.png")
+
+
 def draw_whipping_frequencies(rows, directory):
     frequencies = rows_of(rows, "omega [rad/s]")
     figure, panels = plt.subplots(1, len(frequencies), figsize=(max(6.4, 4.6 * len(frequencies)), 4.4), squeeze=False, layout="constrained")
@@ -201,6 +217,7 @@ DRAWINGS = {
     "resolution": [draw_resolution],
     "convergence-pvp": [draw_convergence_pvp],
     "convergence-straight": [draw_convergence_straight],
+    "convergence-flow": [draw_convergence_flow],
     "whipping_frequencies": [draw_whipping_frequencies],
     "whipping_axis": [draw_whipping_axis],
 }

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "validation/support/charged_thread.hpp"
 #include "validation/support/run.hpp"
 #include "validation/support/studies.hpp"
 
@@ -119,6 +121,96 @@ void by_flow(Report& report) {
                drift(straight, 1, &Steady::velocity) / drift(straight, 0, &Steady::velocity), 0, 1);
 }
 
+/// A thread without ends to speak of, for which theory has the answer.
+void closed_thread(Report& report) {
+  const ChargedThread thread;
+  auto table =
+      report.table("convergence-thread", "Growth rate of a helical wave on a charged thread",
+                   {"elements", "element over radius", "points [1/s]", "slender [1/s]", "theory [1/s]"});
+  double points_before = 0, points = 0, slender = 0;
+  for (const int N : {25, 50, 100, 200}) {
+    points_before = points;
+    points = thread.growth(N, false);
+    const double rate = thread.growth(N, true);
+    if (N == 100) slender = rate;
+    table.row({std::int64_t{N}, thread.length / N / thread.radius, points, rate, thread.theory()});
+  }
+  // second order in k l, which is 0.5
+  report.check("closed thread of 100 elements: growth rate, slender over slender-body theory (15,831/s)",
+               slender / thread.theory(), 0.995, 1.005);
+  // lambda^2 k^2 ln 2 a halving, of 2.9 times as much at 100 elements
+  report.check("closed thread: growth rate of points, 200 elements over 100 (no limit)",
+               points / points_before, 1.1, 1.2);
+}
+
+constexpr double shortest_refined = 0.0125;  ///< of adaptive elements; at 2 a_0 they have no room left
+
+/// Case 3 fed by flow: fixed elements, points and tubes, and elements that are split where the jet bends.
+void whipping_by_flow(Report& report) {
+  const std::vector<double> lengths = report.quick ? std::vector{0.04, 0.02, shortest_refined}
+                                                   : std::vector{0.04, 0.03, 0.02, 0.015, shortest_refined};
+  const std::string flow = "flow rate 0.01736";  // 221 cm/s, about what the jet draws by the paper's rule
+  const auto answer = [&](double length, std::vector<std::string> lines) {
+    lines.insert(lines.end(), {flow, fmt::format("initial length {}", length)});
+    return steady<3>("pvp", lines, 0.01, 0.05);
+  };
+  std::vector<std::array<Steady, 3>> found;
+  for (const double length : lengths) {
+    report.progress("convergence-flow", int(found.size()), int(lengths.size()));
+    found.push_back(
+        {answer(length, {"feed flow", "surface tension model energy"}), answer(length, {"model slender"}),
+         answer(length, {"model slender", "dynamic refinement yes",
+                         fmt::format("dynamic refinement tolerance {}", report.quick ? 2e-2 : 1e-2)})});
+  }
+  auto table =
+      report.table("convergence-flow", "Case 3 at 9 kV, fed by flow at 221 cm/s, energy of the surface",
+                   {"l_step [cm]", "l_step over radius", "points: aperture [degree]",
+                    "slender: aperture [degree]", "adaptive: aperture [degree]", "limit: aperture [degree]",
+                    "points: path [cm]", "slender: path [cm]", "adaptive: path [cm]", "limit: path [cm]"});
+  const double radius = example("pvp").nozzle_cross;
+  const Steady& limit = found.back()[2];
+  for (std::size_t k = 0; k < lengths.size(); ++k) {
+    const auto& s = found[k];
+    table.row({lengths[k], lengths[k] / radius, s[0].aperture, s[1].aperture, s[2].aperture, limit.aperture,
+               s[0].path, s[1].path, s[2].path, limit.path});
+  }
+  const auto change = [&](std::size_t which, double Steady::*what) {
+    const std::size_t last = lengths.size() - 1,
+                      at_4a = std::size_t(std::find(lengths.begin(), lengths.end(), 0.02) - lengths.begin());
+    return std::abs(found[last][which].*what / (found[at_4a][which].*what) - 1);
+  };
+  report.check("case 3 by flow: change of the aperture from l_step 4 a_0 to 2.5 a_0, slender over points",
+               change(1, &Steady::aperture) / change(0, &Steady::aperture), 0, 1);
+  report.check("case 3 by flow: change of the path from l_step 4 a_0 to 2.5 a_0, slender over points",
+               change(1, &Steady::path) / change(0, &Steady::path), 0, 1);
+}
+
+/// Elements where the jet needs them: what the spatial tolerance leaves of the error.
+void adaptive(Report& report) {
+  auto table =
+      report.table("convergence-adaptive", "Case 3 by model slender, l_step 4 a_0: tolerance of the elements",
+                   {"tolerance of an arc", "aperture [degree]", "path [cm]"});
+  const auto with = [&](std::vector<std::string> lines) {
+    lines.insert(lines.end(), {"model slender", "flow rate 0.01736"});
+    return steady<3>("pvp", lines, 0.01, 0.05);
+  };
+  const Steady fixed = with({});
+  table.row({std::string("fixed"), fixed.aperture, fixed.path});
+  std::vector<Steady> found;
+  for (const double tolerance :
+       report.quick ? std::vector{2e-2, 1e-2} : std::vector{4e-2, 2e-2, 1e-2, 5e-3}) {
+    found.push_back(
+        with({"dynamic refinement yes", fmt::format("dynamic refinement tolerance {}", tolerance)}));
+    table.row({tolerance, found.back().aperture, found.back().path});
+  }
+  const std::size_t last = found.size() - 1;
+  report.check("case 3, adaptive elements: aperture at half of the tolerance over that at all of it",
+               found[last].aperture / found[last - 1].aperture, 0.99, 1.01);
+  // a turn near the collector has 10 fixed elements, whose chord is 2 % short
+  report.check("case 3: aperture by fixed elements over that by adaptive ones",
+               fixed.aperture / found[last].aperture, 1.01, 1.05);
+}
+
 }  // namespace
 
 void study_convergence(Report& report) {
@@ -129,8 +221,11 @@ void study_convergence(Report& report) {
        "left in a jet that the paper's rule of insertion feeds, and in one that a pump feeds?",
        "treejet run examples/pvp/input.dat --out DIR --set \"self field slender\" --set \"initial length "
        "0.01\""});
+  closed_thread(report);
   by_pull(report);
   by_flow(report);
+  whipping_by_flow(report);
+  adaptive(report);
 }
 
 }  // namespace treejet

@@ -9,6 +9,7 @@
 #include "forces/terms/slender_self_field.hpp"
 #include "forces/terms/surface_energy.hpp"
 #include "forces/terms/wide_logarithm.hpp"
+#include "validation/support/charged_thread.hpp"
 #include "validation/support/run.hpp"
 #include "validation/support/scenes.hpp"
 
@@ -271,36 +272,10 @@ TEST_CASE("A slender jet is the same at one rate and at two, and with its local 
 }
 
 TEST_CASE("A helical wave on a straight thread grows as slender-body theory says, with 100 elements") {
-  // the fluid of the PVP jet, radius a, wavelength 0.25 cm; eight waves, the inner half of them is looked at
-  const double a = 5e-3, density = 0.84, charge_density = 44000, k = 2 * pi / 0.25, amplitude = 1e-6;
-  const double section = pi * a * a, lambda = charge_density * section, mu = density * section;
-  const double theory = lambda * k * std::sqrt((std::log(2 / (k * a)) - std::numbers::egamma) / mu);
-  CHECK(theory == Approx(15831).epsilon(1e-3));
-  const auto growth = [&](int N, bool slender) {
-    const double l = 2.0 / N, q = lambda * l, m = mu * l;
-    std::vector<Bead<3>> beads;
-    for (int i = 0; i <= N; ++i) {
-      const double cell = i == 0 || i == N ? 0.5 : 1, x = l * i;
-      beads.push_back({Vec<3>(1e5 + x, amplitude * std::cos(k * x), amplitude * std::sin(k * x)),
-                       Vec<3>::Zero(), 0, cell, cell});
-    }
-    auto f = slender ? equations<3>(plain_parameters(), CoulombForce<3>(q * q / m, all_pairs),
-                                    SlenderSelfField<3>(q * q / m, Section{a, l}))
-                     : equations<3>(plain_parameters(), CoulombForce<3>(q * q / m, all_pairs));
-    const auto jet = jet_of<3>(beads);
-    const State<3> dy = slope(f, jet);
-    double work = 0, square = 0;
-    for (int i = N / 4; i <= 3 * N / 4; ++i) {
-      work += dy(i, 4) * jet.y(i, 1) + dy(i, 5) * jet.y(i, 2);
-      square += jet.y(i, 1) * jet.y(i, 1) + jet.y(i, 2) * jet.y(i, 2);
-    }
-    return std::sqrt(work / square);
-  };
-  CAPTURE(growth(50, true), growth(100, true), growth(50, false), growth(200, false));
-  CHECK(growth(100, true) == Approx(theory).epsilon(5e-3));  // second order in k l, which is 0.5
+  const ChargedThread thread;
+  CHECK(thread.theory() == Approx(15831).epsilon(1e-3));
+  CHECK(thread.growth(100, true) ==
+        Approx(thread.theory()).epsilon(5e-3));  // second order in k l, which is 0.5
   // points: theory's logarithm ends at the spacing instead of the radius
-  for (int N : {100, 200}) {
-    const double l = 2.0 / N, points = lambda * k * std::sqrt((std::log(1 / (k * l)) + 1.5) / mu);
-    CHECK(growth(N, false) == Approx(points).epsilon(2e-2));
-  }
+  for (int N : {100, 200}) CHECK(thread.growth(N, false) == Approx(thread.theory_of_points(N)).epsilon(2e-2));
 }
