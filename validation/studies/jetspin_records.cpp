@@ -58,8 +58,7 @@ std::string claim(const Case& c, Key key) {
   return fmt::format("{} ({}): {}", c.deck, c.source, keys[key]);
 }
 
-/// Within the recorded range, or beyond it by a part that stands in the issue of these decks: their steps,
-/// removal and noise are not ours.
+/// Within the recorded range, or beyond it by a part: their steps, removal and noise are not ours.
 void judge(const Case& c, const std::vector<double>& found, double beyond, Report& report) {
   for (const Record& r : c.records)
     report.check(claim(c, r.key) + fmt::format(", recorded {:.4g} to {:.4g}", r.low, r.high), found[r.key],
@@ -87,29 +86,21 @@ void example_4(const std::filesystem::path& folder, Report& report, ResultTable&
          "log of 1.20",
          as_1_20,
          until,
-         {{vn, 226.6, 226.6}, {vc, 2040, 2110}, {angl, 27, 31}, {rc, 4.2e-4, 4.3e-4}}};
+         {{vn, 226.6, 226.6},
+          {vc, 2040, 2110},
+          {n, 161, 168},
+          {lp, 261, 269},
+          {angl, 27, 31},
+          {rc, 4.2e-4, 4.3e-4}}};
   const std::vector<double> right = steady_means(c, folder);
   judge(c, right, 0.05, report);
   add_row(c, right, table);
+  // with their lift vn and n are as recorded, but not lp and angl: the cause of the difference is open
   Case theirs = c;
   const Parameters p = read_deck((folder / (c.deck + ".dat")).string()).parameters;
   theirs.changes = joined(as_1_20, air_with_their_lift(p));
   theirs.source = "log of 1.20, lift 1/L_0 times too large as printed there";
-  theirs.records = {{vn, 226.6, 226.6}, {n, 161, 168}};
-  const std::vector<double> lifted = steady_means(theirs, folder);
-  judge(theirs, lifted, 0.01, report);
-  Case calm = c;
-  calm.changes = joined(as_1_20, {"airdrag lift no"});
-  const std::vector<double> without = steady_means(calm, folder);
-  const std::string why =
-      "their log has a lift 28.7 times too large; the right one changes a jet without any by a few per cent";
-  report.differs(claim(c, n), right[n], {164.5, 0.97 * without[n], 1.05 * without[n], why});
-  report.differs(claim(c, lp), right[lp], {265, 0.97 * without[lp], 1.05 * without[lp], why});
-  theirs.records.push_back({lp, 261, 269});
-  theirs.records.push_back({angl, 27, 31});
-  add_row(theirs, lifted, table);
-  c.records = {{n, 161, 168}, {lp, 261, 269}};
-  add_row(c, right, table);
+  add_row(theirs, steady_means(theirs, folder), table);
 }
 
 /// Steps, events and releases as theirs, where a run of 1000 steps counts.
@@ -117,48 +108,44 @@ void counts(const std::filesystem::path& folder, Report& report) {
   struct Count {
     std::string deck;
     double beads, inserted;
-    bool removes;
   };
-  for (const Count& r : {Count{"v2.0b-input-15", 211, 111, false}, Count{"v2.0b-input-16", 89, 111, true},
-                         Count{"v2.0b-input-17", 89, 111, true}}) {
+  for (const Count& r : {Count{"v2.0b-input-15", 211, 111}, Count{"v2.0b-input-16", 89, 111},
+                         Count{"v2.0b-input-17", 89, 111}}) {
     const Parameters p =
         read_deck((folder / (r.deck + ".dat")).string(), joined(as_2_0, {"events step"})).parameters;
     Run<3> run(p);
     const Effort effort = run.to(p.final_time);
     report.compare(r.deck + ": beads inserted by the end", double(effort.placed),
                    {r.inserted, 0, "its notes"});
-    const double beads = double(run.beads());
-    if (r.removes)
-      report.differs(r.deck + ": beads at the end", beads,
-                     {r.beads, r.beads - 1, r.beads - 1,
-                      "JETSPIN keeps the bead that landed last until the next one lands"});
-    else
-      report.compare(r.deck + ": beads at the end", beads, {r.beads, 0, "its notes"});
+    report.compare(r.deck + ": beads at the end", double(run.beads()), {r.beads, 0, "its notes"});
   }
 }
 
 void long_runs(const std::filesystem::path& folder, Report& report, ResultTable& table) {
-  const Case cases[] = {
-      {"v2.0b-input-24",
-       "full run of 2.0 beta",
-       as_2_0,
-       0.04,
-       {{lp, 213.8, 213.8}, {vc, 1960, 1960}, {yz, 3.83, 3.83}, {angl, 26.9, 26.9}, {rc, 3.16e-4, 3.16e-4}}},
-      {"v2.0b-input-25",
-       "full run of 2.0 beta, polymer 0.5",
-       joined(as_2_0, {"evaporation polymer frac 0.5"}),
-       0.04,
-       {{lp, 111.9, 111.9}, {vc, 2534, 2534}, {yz, 2.78, 2.78}, {angl, 19.7, 19.7}, {rc, 2.77e-4, 2.77e-4}}}};
-  const double beads[] = {517, 268};
-  for (int k : {0, 1}) {
-    const std::vector<double> found = steady_means(cases[k], folder);
-    judge(cases[k], found, 0.1, report);
-    add_row(cases[k], found, table);
-    constexpr double threshold = 0.4;
-    report.differs(
-        claim(cases[k], n), found[n],
-        {beads[k], found[lp] / threshold, 2 * found[lp] / threshold,
-         "JETSPIN lays beads anew a threshold apart; halved elements are between half of it and all"});
+  const Case cases[] = {{"v2.0b-input-24",
+                         "full run of 2.0 beta",
+                         as_2_0,
+                         0.04,
+                         {{n, 517, 517},
+                          {lp, 213.8, 213.8},
+                          {vc, 1960, 1960},
+                          {yz, 3.83, 3.83},
+                          {angl, 26.9, 26.9},
+                          {rc, 3.16e-4, 3.16e-4}}},
+                        {"v2.0b-input-25",
+                         "full run of 2.0 beta, polymer 0.5",
+                         joined(as_2_0, {"evaporation polymer frac 0.5"}),
+                         0.04,
+                         {{n, 268, 268},
+                          {lp, 111.9, 111.9},
+                          {vc, 2534, 2534},
+                          {yz, 2.78, 2.78},
+                          {angl, 19.7, 19.7},
+                          {rc, 2.77e-4, 2.77e-4}}}};
+  for (const Case& c : cases) {
+    const std::vector<double> found = steady_means(c, folder);
+    judge(c, found, 0.1, report);
+    add_row(c, found, table);
   }
 }
 
