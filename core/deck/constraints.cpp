@@ -284,6 +284,12 @@ class Relations {
     error(vector && p_.system == 1, {"field vector", "system"}, "expected external potential in system 1");
     error(vector && p_.field_needle, {"field needle", "field vector"},
           "expected external potential: the field of a needle has its own direction");
+    const bool mapped = !p_.field_map.empty();
+    error(mapped && is_given("external potential"), {"external potential", "field map"},
+          "expected none: the map has potentials of its own");
+    error(mapped && vector, {"field vector", "field map"},
+          "expected none: the map has a direction of its own");
+    error(mapped && p_.field_needle, {"field needle", "field map"}, "expected one of the two");
     bool ordered = p_.field_table.size() % 2 == 0;
     for (std::size_t k = 2; k + 1 < p_.field_table.size(); k += 2)
       ordered &= p_.field_table[k] > p_.field_table[k - 2];

@@ -185,6 +185,10 @@ const Directive table[] = {
     {.words = "field needle", .member = &P::field_needle, .unit = "cm", .check = positive,
      .meaning = "radius of a needle's tip at the nozzle: the field of needle and plate instead of a uniform one",
      .absent = "a uniform field"},
+    {.words = "field map", .member = &P::field_map,
+     .meaning = "file with the potential on a grid (HDF5, VTK image data; m and V, nozzle at the origin): its field instead of that of "
+                "external potential",
+     .absent = "none"},
     {.words = "gravity", .member = &P::gravity, .meaning = "gravity along x", .example = "yes"},
     {.words = "cutoff", .member = &P::cutoff, .unit = "cm", .check = positive,
      .meaning = "reach of the Coulomb force along the jet, measured at the nozzle", .absent = "the full sum"},

@@ -92,6 +92,7 @@ void H5md::describe() {
   note("observables", fmt::format("{}", fmt::join(content_.keys, " ")));
   note("run_record", run_record_name);
   if (!p.begins_with.empty()) note("begins_with", p.begins_with);
+  if (!p.field_map.empty()) note("field_map", p.field_map);
   if (content_.added.empty()) return;
   std::string lines;
   for (const FrameColumn& c : content_.added) lines += fmt::format("{} {}\n", c.name, c.unit);

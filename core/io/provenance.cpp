@@ -45,6 +45,7 @@ std::string deck_description(std::string_view name, std::string_view deck,
 
 std::string description(const Provenance& p) {
   std::string text = fmt::format("{}\n{}\n", program(p), p.libraries);
+  if (!p.field_map.empty()) text += p.field_map + "\n";
   if (!p.begins_with.empty()) text += fmt::format("begins with {}\n", p.begins_with);
   return text + deck_description(p.deck_name, p.deck, p.overrides);
 }

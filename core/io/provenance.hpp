@@ -19,6 +19,7 @@ struct Provenance {
   std::string deck;       ///< its text, byte for byte
   std::vector<std::string> overrides;
   std::string begins_with;  ///< the state of another run that this one began with, and its time; else empty
+  std::string field_map = {};  ///< its file, size and hash; empty without one
 };
 
 /// Between the number of a version and the name of physics that is not stock

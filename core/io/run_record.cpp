@@ -44,6 +44,7 @@ Json record_of(const RunRecord::Setting& s) {
                  {"vector_path", p.isa_name}, {"libraries", p.libraries}, {"deck", deck_of(p)},
                  {"files", s.files},          {"segments", Json::array()}};
   if (!p.begins_with.empty()) record["begins_with"] = p.begins_with;
+  if (!p.field_map.empty()) record["field_map"] = p.field_map;
   return record;
 }
 
@@ -153,11 +154,17 @@ std::string run_record_text(const fs::path& path) try {
   text += "files";
   for (const Json& f : record.at("files")) text += fmt::format(" {}", f.get<std::string>());
   const Json& deck = record.at("deck");
-  const Provenance p{record.at("version"),     record.at("commit"),
-                     record.at("compiler"),    record.at("build"),
-                     record.at("vector_path"), record.at("libraries"),
-                     deck.at("name"),          deck.at("text"),
-                     deck.at("overrides"),     record.value("begins_with", "")};
+  const Provenance p{record.at("version"),
+                     record.at("commit"),
+                     record.at("compiler"),
+                     record.at("build"),
+                     record.at("vector_path"),
+                     record.at("libraries"),
+                     deck.at("name"),
+                     deck.at("text"),
+                     deck.at("overrides"),
+                     record.value("begins_with", ""),
+                     record.value("field_map", "")};
   return fmt::format("{}\n{}", text, description(p));
 } catch (const Json::exception& e) {
   throw FileError(fmt::format("{}: a run record with something missing: {}", path.string(), e.what()));

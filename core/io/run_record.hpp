@@ -2,7 +2,7 @@
 /// run.json: what made the files beside it, and under which circumstances.
 ///
 ///     {"format": "treejet run record 1", "program", "version", "commit", "compiler", "build", "vector_path",
-///      "libraries", "deck": {"name", "text", "overrides"}, "begins_with", "files": [...],
+///      "libraries", "deck": {"name", "text", "overrides"}, "begins_with", "field_map", "files": [...],
 ///      "segments": [{"started", "host", "ranks", "threads", "ended", "wall_seconds", "outcome", "compute",
 ///                    "exchange", "wait", "gatherings"}, ...],
 ///      "effort": {"evaluations", "steps", "rejected", "retaken", "inserted", "arrived", "beads"},

@@ -52,7 +52,6 @@ struct FieldSetting {
   std::optional<double> field_needle;        ///< tip radius, cm
   std::string field_map;                     ///< file; empty: none
   std::shared_ptr<const FieldMap> map = {};  ///< what is in that file, once somebody has read it
-  std::vector<double> magnetic_field;        ///< uniform, x, y and z, gauss
 };
 
 /// The gas around the jet; that of a room at 20 C and 1 atm where the deck names none.

@@ -228,6 +228,7 @@ class Composer {
   void add_field() {
     const std::array<double, 3> V = field_groups(p_);
     const Waveform wave(p_);
+    if (!p_.field_map.empty()) return add_mapped_field(wave);
     add(
         V != std::array<double, 3>{} && !p_.field_needle,
         p_.density_charge == 0 ? "density charge is 0"
@@ -238,6 +239,15 @@ class Composer {
     const NeedleField field(*p_.field_needle / scales(p_).length, g_.H);
     terms_.push_back(std::make_unique<NeedlePlate<D>>(g_.V, field, wave));
     composed.push_back({std::string(terms_.back()->name()), "field needle"});
+  }
+
+  void add_mapped_field(const Waveform& wave) {
+    if (!p_.map) throw InputError(fmt::format("field map {}: has not been read", p_.field_map));
+    if (p_.density_charge == 0) return left_out.push_back({"field of a map", "density charge is 0"});
+    const Scales s = scales(p_);
+    const double per_field = s.charge / s.mass / (s.length / (s.time * s.time));
+    terms_.push_back(std::make_unique<MappedField<D>>(p_.map, s.length, per_field, wave));
+    composed.push_back({p_.map->name(), "field map"});
   }
 
   void add_air() {

@@ -4,6 +4,7 @@
 ///
 ///     uniform   E = w V_0 / h along x, or any constant vector      ->  a_i = w V q_i / m_i
 ///     rotating  E = (E_x, E_y cos theta, E_z sin theta)
+///     map       E = w times that of a file (core/jet/field_map.hpp)
 ///     needle    E = w times that of a hyperboloid of tip radius R at distance h from a grounded plane
 ///
 /// Needle and plane: with z the distance from the plane, r_1 and r_2 those from the foci at z = +f and -f,
@@ -14,9 +15,14 @@
 /// which is V_0 f / (atanh(eta_0) h R) at the tip. Positive drives a bead of positive charge to the
 /// collector. Sources: paper, Sec. "Equations of motion"; the needle: prolate spheroidal coordinates.
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
+#include <memory>
 
+#include "core/base/error.hpp"
+#include "core/jet/field_map.hpp"
 #include "core/jet/waveform.hpp"
 #include "forces/terms/term.hpp"
 
@@ -109,6 +115,50 @@ class NeedlePlate final : public ForceTerm<D> {
  private:
   double V_;
   NeedleField field_;
+  Waveform wave_;
+};
+
+/// A bead off the map stops the run: NumericalError names it and the box.
+template <int D>
+class MappedField final : public ForceTerm<D> {
+ public:
+  /// `unit`: of length, cm. `V`: acceleration of a charge over mass 1 in a field of 1 statV/cm.
+  MappedField(std::shared_ptr<const FieldMap> map, double unit, double V, const Waveform& wave)
+      : map_(std::move(map)), unit_(unit), V_(V), wave_(wave) {}
+  std::string_view name() const override { return "field of a map"; }
+  bool extrapolates() const override { return wave_.extrapolates(); }
+  double smooth_from(double t) override { return wave_.smooth_from(t); }
+
+  void prepare(const Chain<D>& chain, Rows rows, Threads) override {
+    for (int i = rows.first; i < rows.last; ++i) expect_inside(chain, i);
+    if (chain.held_mass > 0) expect_inside(chain, chain.beads);
+  }
+  void add(const Chain<D>& chain, Rows rows, Acceleration<D>& a) const override {
+    for (int i = rows.first; i < rows.last; ++i)
+      a.row(i) += chain.point_charge[i] * chain.inverse_mass[i] * push(chain, i).transpose().array();
+  }
+  Vec<D> on_held(const Chain<D>& chain) const override { return push(chain, chain.beads); }
+
+ private:
+  Vec<3> place(const Chain<D>& chain, int point) const {
+    Vec<3> r = Vec<3>::Zero();
+    r.template head<D>() = unit_ * chain.point.row(point).matrix().transpose();
+    return r;
+  }
+  Vec<D> push(const Chain<D>& chain, int point) const {
+    return V_ * wave_(chain.t) * map_->field(place(chain, point)).template head<D>();
+  }
+  void expect_inside(const Chain<D>& chain, int point) const {
+    const Vec<3> r = place(chain, point);
+    if (map_->contains(r)) return;
+    throw NumericalError(
+        fmt::format("at scaled time {}: bead {} (number {} since the start) is at {:.4g}, {:.4g}, {:.4g} cm, "
+                    "off the {}: {}; likely cause: the map is too small for the jet, or not in m",
+                    chain.t, point, chain.first_number + point, r[0], r[1], r[2], map_->name(), map_->box()));
+  }
+
+  std::shared_ptr<const FieldMap> map_;
+  double unit_, V_;
   Waveform wave_;
 };
 

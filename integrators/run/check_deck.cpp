@@ -7,6 +7,7 @@
 
 #include "core/deck/deck.hpp"
 #include "core/deck/lab_sheet.hpp"
+#include "core/io/field_map_file.hpp"
 #include "core/io/run_record.hpp"
 #include "core/jet/scales.hpp"
 #include "forces/scene/scene_description.hpp"
@@ -64,7 +65,8 @@ void check(const Deck& deck, bool json, const OwnPhysics& own) {
 }  // namespace
 
 void check_deck(const Arguments& a, const OwnPhysics& own) {
-  const Deck deck = read_deck(a.deck, a.overrides);
+  Deck deck = read_deck(a.deck, a.overrides);
+  read_field_map_of(deck);
   deck.parameters.system == 1 ? check<1>(deck, a.json, own) : check<3>(deck, a.json, own);
 }
 

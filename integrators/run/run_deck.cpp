@@ -12,6 +12,7 @@
 #include "core/deck/deck.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/directory_lock.hpp"
+#include "core/io/field_map_file.hpp"
 #include "core/io/provenance.hpp"
 #include "core/io/run_record.hpp"
 #include "core/restart/origin.hpp"
@@ -88,6 +89,7 @@ Provenance made(const Deck& deck, const OwnPhysics& own, const Beginning& from =
   if (!own.name.empty()) p.version += own_physics_mark + own.name;
   const std::string part = "begins with";
   if (from.origin) p.begins_with = description(*from.origin, deck.parameters);
+  if (deck.parameters.map) p.field_map = deck.parameters.map->name();
   if (from.resumed && from.resumed->state.has(part)) from.resumed->state.part(part, p.begins_with);
   return p;
 }
@@ -96,8 +98,8 @@ template <int D>
 int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysics& own,
         const Beginning& from) {
   const Provenance made_by = made(deck, own, from);
-  ranks.require_same(program(made_by),
-                     deck_description(deck.name, deck.text, deck.overrides) + made_by.begins_with);
+  ranks.require_same(program(made_by), deck_description(deck.name, deck.text, deck.overrides) +
+                                           made_by.begins_with + made_by.field_map);
   const Parameters& p = deck.parameters;
   const Threads each = threads(a, ranks);
   const std::string directory = from.resumed ? a.resume : a.out;
@@ -147,8 +149,20 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysi
   return 0;
 }
 
-int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysics& own,
+/// A run that goes on has the map that it began with.
+void expect_same_map(const Provenance& made_by, Checkpoint& resumed) {
+  std::string before;
+  if (resumed.state.has("field map")) resumed.state.part("field map", before);
+  if (before != made_by.field_map)
+    throw InputError(fmt::format("the run began with {}, and this is {}",
+                                 before.empty() ? "no field map" : before,
+                                 made_by.field_map.empty() ? "none" : made_by.field_map));
+}
+
+int run(Deck deck, const Arguments& a, const Ranks& ranks, const OwnPhysics& own,
         const Beginning& from = {}) {
+  read_field_map_of(deck);
+  if (from.resumed) expect_same_map(made(deck, own, from), *from.resumed);
   const bool straight = deck.parameters.system == 1;
   return straight ? run<1>(deck, a, ranks, own, from) : run<3>(deck, a, ranks, own, from);
 }
