@@ -144,14 +144,18 @@ class Relations {
              l_step.value_or(0), p_.nozzle_cross));
   }
 
+  /// A feature that knows these laws alone, and nothing that adds to them.
+  void law_without_extras(const char* feature, bool known, std::string_view laws, std::string_view why) {
+    error(!known || p_.hbfluid || p_.yield_stress > 0 || p_.solvent_viscosity > 0,
+          {feature, "stress law", "kvfluid", "hbfluid", "yield stress", "solvent viscosity"},
+          fmt::format("expected {} without yield stress, hbfluid or solvent viscosity: {}", laws, why));
+  }
+
   void bending() {
     if (!p_.bending) return;
     error(p_.system == 1, {"bending", "system"}, "expected system 3: a straight jet does not bend");
-    error(stress_law(p_) != StressLawKind::maxwell || p_.hbfluid || p_.yield_stress > 0 ||
-              p_.solvent_viscosity > 0,
-          {"bending", "stress law", "kvfluid", "hbfluid", "yield stress", "solvent viscosity"},
-          "expected stress law maxwell without yield stress, hbfluid or solvent viscosity: only of a linear "
-          "law is the moment known from the strain rate of the axis");
+    law_without_extras("bending", stress_law(p_) == StressLawKind::maxwell, "stress law maxwell",
+                       "only of a linear law is the moment known from the strain rate of the axis");
     error(p_.evaporation, {"bending", "evaporation"},
           "expected no evaporation: the section would dry unevenly");
     error(p_.refinement, {"bending", "dynamic refinement"},
@@ -354,11 +358,8 @@ class Relations {
     error(!is_given("evaporation polymer frac"), {"evaporation"},
           "expected evaporation polymer frac to be given, too");
     const StressLawKind law = stress_law(p_);
-    error((law != StressLawKind::maxwell && law != StressLawKind::kelvin_voigt) || p_.hbfluid ||
-              p_.yield_stress > 0 || p_.solvent_viscosity > 0,
-          {"evaporation", "stress law", "kvfluid", "hbfluid", "yield stress", "solvent viscosity"},
-          "expected stress law maxwell or kelvin-voigt without yield stress, hbfluid or solvent viscosity: "
-          "how the others thicken is not modelled");
+    law_without_extras("evaporation", law == StressLawKind::maxwell || law == StressLawKind::kelvin_voigt,
+                       "stress law maxwell or kelvin-voigt", "how the others thicken is not modelled");
     error(p_.self_field == SelfField::slender, {"evaporation", "self field"}, "expected self field point");
     error(p_.parallel == ParallelData::distributed, {"evaporation", "parallel"},
           "expected parallel replicated");
@@ -461,8 +462,7 @@ class Relations {
     if (composable())
       error(properties(chosen_scheme(p_)).implicit, {"parallel", "integrator"},
             "expected an explicit integrator, or parallel replicated: the local terms of a chain in "
-            "subdomains are "
-            "not solved for");
+            "subdomains are not solved for");
   }
 
   const Given* find(std::string_view words) const { return treejet::find(given_, directive(words)); }

@@ -15,9 +15,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double speed_of_sound = 34300;  // cm/s, in air at 20 C
-constexpr double most_draw = 1000;        // times what the nozzle's velocity supplies
-
 double in(double number, std::string_view from, std::string_view to) {
   return converted(number, unit(from).value(), unit(to).value());
 }

@@ -15,6 +15,10 @@
 
 namespace treejet {
 
+/// A jet that draws more times the volume that the nozzle's velocity supplies is called absurd.
+constexpr double most_draw = 1000;
+constexpr double speed_of_sound = 34300;  ///< cm/s, in air at 20 C
+
 /// What a trial run knows besides.
 struct Draw {
   double flow;   ///< volume that leaves the nozzle, cm^3/s

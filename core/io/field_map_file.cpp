@@ -12,12 +12,13 @@
 
 #include "core/base/error.hpp"
 #include "core/io/hdf5_file.hpp"
+#include "core/jet/scales.hpp"
 
 namespace treejet {
 
 namespace {
 
-constexpr double cm_per_m = 100, statv_per_volt = 1 / 299.792458;
+constexpr double cm_per_m = 100, statv_per_volt = 1 / volt_per_statvolt;
 constexpr double most_points = 1e8;
 
 std::string bytes_of(const std::filesystem::path& path) {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "core/observe/progress.hpp"
 
 namespace treejet {
@@ -20,11 +18,10 @@ std::string summary_of(const FieldErrorReport& forces) {
 }
 
 void warn_of_missed_accuracy(const FieldErrorReport& forces, double t) {
-  fmt::print(
-      stderr,
-      "{}treejet: warning: at t = {:.6g} s the error of the Coulomb field on sampled beads was {:.2g}, above "
-      "the accuracy {:g} asked for\n",
-      stderr_is_interactive() ? clear_line : "", t, forces.worst_l2, forces.asked);
+  warn_at(t,
+          fmt::format("the error of the Coulomb field on sampled beads was {:.2g}, above the accuracy {:g} "
+                      "asked for",
+                      forces.worst_l2, forces.asked));
 }
 
 }  // namespace treejet

@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 
+#include "core/deck/lab_sheet.hpp"
 #include "core/observe/progress.hpp"
 
 namespace treejet {
 
 namespace {
-constexpr double speed_of_sound = 34000;  // cm/s, in air at 20 C
-constexpr double most_draw = 1000;        // times the supply
 constexpr int steps_a_look = 64;
 constexpr int enough_beads = 100;  // released, for a rate that is no accident of the beginning
 }  // namespace
@@ -59,8 +57,7 @@ template <int D>
 void Plausibility<D>::warn(Finding finding, double t, const std::string& what) {
   if (warned_[finding]) return;
   warned_[finding] = true;
-  fmt::print(stderr, "{}treejet: warning: at t = {:.6g} s {}\n", stderr_is_interactive() ? clear_line : "", t,
-             what);
+  warn_at(t, what);
 }
 
 template class Plausibility<1>;

@@ -30,6 +30,11 @@ bool stderr_is_interactive() {
   return isatty(fileno(stderr)) != 0;
 }
 
+void warn_at(double t, const std::string& what) {
+  fmt::print(stderr, "{}treejet: warning: at t = {:.6g} s {}\n", stderr_is_interactive() ? clear_line : "", t,
+             what);
+}
+
 std::string duration_text(double seconds) {
   const auto s = static_cast<long long>(seconds + 0.5);
   if (s < 60) return fmt::format("{} s", s);

@@ -30,6 +30,9 @@ constexpr const char* clear_line = "\r\033[K";
 /// Whether stderr is a terminal.
 bool stderr_is_interactive();
 
+/// A warning of a run at time t, s, on a line of its own: "treejet: warning: at t = 0.02 s the ...".
+void warn_at(double t, const std::string& what);
+
 /// "42 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/observe/progress.hpp"
 
@@ -102,11 +101,10 @@ void StepErrors<D>::warn_if_large(double t) {
   constexpr double large = 1e-3;
   if (warned_ || !(step_error() > large || lateness() > large)) return;
   warned_ = true;
-  fmt::print(
-      stderr,
-      "{}treejet: warning: at t = {:.6g} s the timestep is too long for results to 0.1 %: {}; a shorter "
-      "timestep, or tolerance instead, mends it\n",
-      stderr_is_interactive() ? clear_line : "", t * time_unit_, summary());
+  warn_at(t * time_unit_,
+          fmt::format("the timestep is too long for results to 0.1 %: {}; a shorter timestep, or tolerance "
+                      "instead, mends it",
+                      summary()));
 }
 
 template <int D>

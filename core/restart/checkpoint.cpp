@@ -44,6 +44,10 @@ std::uint64_t checksum(std::string_view bytes, std::uint64_t before = 0) {
   return crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
 }
 
+std::uint64_t checksum(const Seal&, std::string_view body) {
+  return checksum(body);
+}
+
 std::uint64_t checksum(const RecordSeal& seal, std::string_view record) {
   return checksum(record, checksum(bytes_of(seal).substr(0, offsetof(RecordSeal, checksum))));
 }
@@ -85,12 +89,8 @@ class Reader {
     at_ += length;
     return found;
   }
-  std::string sealed(const Seal& seal) {
-    std::string found = bytes(seal.length);
-    if (checksum(found) != seal.checksum) refuse(file_, "damaged: wrong checksum");
-    return found;
-  }
-  std::string sealed(const RecordSeal& seal) {
+  template <class SomeSeal>
+  std::string sealed(const SomeSeal& seal) {
     std::string found = bytes(seal.length);
     if (checksum(seal, found) != seal.checksum) refuse(file_, "damaged: wrong checksum");
     return found;

@@ -246,7 +246,7 @@ class Composer {
     if (p_.density_charge == 0) return left_out.push_back({"field of a map", "density charge is 0"});
     const Scales s = scales(p_);
     const double per_field = s.charge / s.mass / (s.length / (s.time * s.time));
-    terms_.push_back(std::make_unique<MappedField<D>>(p_.map, s.length, per_field, wave));
+    terms_.push_back(std::make_unique<MappedField<D>>(per_field, ScaledMap{p_.map, s.length}, wave));
     composed.push_back({p_.map->name(), "field map"});
   }
 

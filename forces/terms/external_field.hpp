@@ -89,77 +89,76 @@ class NeedleField {
   double end_;  ///< atanh(eta_0)
 };
 
-template <int D>
-class NeedlePlate final : public ForceTerm<D> {
+/// A map in scaled lengths.
+struct ScaledMap {
+  std::shared_ptr<const FieldMap> map;
+  double unit;  ///< of length, cm
+
+  Vec<3> operator()(const Vec<3>& r) const { return map->field(unit * r); }
+};
+
+/// A field that is known at every place; `V`: acceleration of a charge over mass 1 where it is 1.
+template <int D, class Field>
+class FieldOfPlace : public ForceTerm<D> {
  public:
-  NeedlePlate(double V, const NeedleField& field, const Waveform& wave) : V_(V), field_(field), wave_(wave) {}
-  std::string_view name() const override { return "field of needle and plate"; }
+  FieldOfPlace(double V, Field field, const Waveform& wave) : V_(V), field_(std::move(field)), wave_(wave) {}
   bool extrapolates() const override { return wave_.extrapolates(); }
   double smooth_from(double t) override { return wave_.smooth_from(t); }
 
   void add(const Chain<D>& chain, Rows rows, Acceleration<D>& a) const override {
     const double V = V_ * wave_(chain.t);
     for (int i = rows.first; i < rows.last; ++i) {
-      Vec<3> r = Vec<3>::Zero();
-      r.template head<D>() = chain.point.row(i).matrix().transpose();
       const double push = V * chain.point_charge[i] * chain.inverse_mass[i];
-      a.row(i) += push * field_(r).template head<D>().transpose().array();
+      a.row(i) += push * field_(place(chain, i)).template head<D>().transpose().array();
     }
   }
   Vec<D> on_held(const Chain<D>& chain) const override {
-    Vec<3> r = Vec<3>::Zero();
-    r.template head<D>() = chain.point.row(chain.beads).matrix().transpose();
-    return V_ * wave_(chain.t) * field_(r).template head<D>();
+    return V_ * wave_(chain.t) * field_(place(chain, chain.beads)).template head<D>();
   }
+
+ protected:
+  static Vec<3> place(const Chain<D>& chain, int point) {
+    Vec<3> r = Vec<3>::Zero();
+    r.template head<D>() = chain.point.row(point).matrix().transpose();
+    return r;
+  }
+  const Field& field() const { return field_; }
 
  private:
   double V_;
-  NeedleField field_;
+  Field field_;
   Waveform wave_;
+};
+
+template <int D>
+class NeedlePlate final : public FieldOfPlace<D, NeedleField> {
+ public:
+  using FieldOfPlace<D, NeedleField>::FieldOfPlace;
+  std::string_view name() const override { return "field of needle and plate"; }
 };
 
 /// A bead off the map stops the run: NumericalError names it and the box.
 template <int D>
-class MappedField final : public ForceTerm<D> {
+class MappedField final : public FieldOfPlace<D, ScaledMap> {
  public:
-  /// `unit`: of length, cm. `V`: acceleration of a charge over mass 1 in a field of 1 statV/cm.
-  MappedField(std::shared_ptr<const FieldMap> map, double unit, double V, const Waveform& wave)
-      : map_(std::move(map)), unit_(unit), V_(V), wave_(wave) {}
+  using FieldOfPlace<D, ScaledMap>::FieldOfPlace;
   std::string_view name() const override { return "field of a map"; }
-  bool extrapolates() const override { return wave_.extrapolates(); }
-  double smooth_from(double t) override { return wave_.smooth_from(t); }
 
   void prepare(const Chain<D>& chain, Rows rows, Threads) override {
     for (int i = rows.first; i < rows.last; ++i) expect_inside(chain, i);
     if (chain.held_mass > 0) expect_inside(chain, chain.beads);
   }
-  void add(const Chain<D>& chain, Rows rows, Acceleration<D>& a) const override {
-    for (int i = rows.first; i < rows.last; ++i)
-      a.row(i) += chain.point_charge[i] * chain.inverse_mass[i] * push(chain, i).transpose().array();
-  }
-  Vec<D> on_held(const Chain<D>& chain) const override { return push(chain, chain.beads); }
 
  private:
-  Vec<3> place(const Chain<D>& chain, int point) const {
-    Vec<3> r = Vec<3>::Zero();
-    r.template head<D>() = unit_ * chain.point.row(point).matrix().transpose();
-    return r;
-  }
-  Vec<D> push(const Chain<D>& chain, int point) const {
-    return V_ * wave_(chain.t) * map_->field(place(chain, point)).template head<D>();
-  }
   void expect_inside(const Chain<D>& chain, int point) const {
-    const Vec<3> r = place(chain, point);
-    if (map_->contains(r)) return;
+    const auto& [map, unit] = this->field();
+    const Vec<3> r = unit * this->place(chain, point);
+    if (map->contains(r)) return;
     throw NumericalError(
         fmt::format("at scaled time {}: bead {} (number {} since the start) is at {:.4g}, {:.4g}, {:.4g} cm, "
                     "off the {}: {}; likely cause: the map is too small for the jet, or not in m",
-                    chain.t, point, chain.first_number + point, r[0], r[1], r[2], map_->name(), map_->box()));
+                    chain.t, point, chain.first_number + point, r[0], r[1], r[2], map->name(), map->box()));
   }
-
-  std::shared_ptr<const FieldMap> map_;
-  double unit_, V_;
-  Waveform wave_;
 };
 
 }  // namespace treejet

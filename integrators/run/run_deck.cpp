@@ -84,12 +84,17 @@ struct Beginning {
   Origin* origin = nullptr;
 };
 
+/// Empty without a map.
+std::string map_name(const Parameters& p) {
+  return p.map ? p.map->name() : std::string();
+}
+
 Provenance made(const Deck& deck, const OwnPhysics& own, const Beginning& from = {}) {
   Provenance p = provenance(deck, isa_name());
   if (!own.name.empty()) p.version += own_physics_mark + own.name;
   const std::string part = "begins with";
   if (from.origin) p.begins_with = description(*from.origin, deck.parameters);
-  if (deck.parameters.map) p.field_map = deck.parameters.map->name();
+  p.field_map = map_name(deck.parameters);
   if (from.resumed && from.resumed->state.has(part)) from.resumed->state.part(part, p.begins_with);
   return p;
 }
@@ -150,19 +155,18 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysi
 }
 
 /// A run that goes on has the map that it began with.
-void expect_same_map(const Provenance& made_by, Checkpoint& resumed) {
+void expect_same_map(const Parameters& p, Checkpoint& resumed) {
   std::string before;
   if (resumed.state.has("field map")) resumed.state.part("field map", before);
-  if (before != made_by.field_map)
+  if (const std::string now = map_name(p); before != now)
     throw InputError(fmt::format("the run began with {}, and this is {}",
-                                 before.empty() ? "no field map" : before,
-                                 made_by.field_map.empty() ? "none" : made_by.field_map));
+                                 before.empty() ? "no field map" : before, now.empty() ? "none" : now));
 }
 
 int run(Deck deck, const Arguments& a, const Ranks& ranks, const OwnPhysics& own,
         const Beginning& from = {}) {
   read_field_map_of(deck);
-  if (from.resumed) expect_same_map(made(deck, own, from), *from.resumed);
+  if (from.resumed) expect_same_map(deck.parameters, *from.resumed);
   const bool straight = deck.parameters.system == 1;
   return straight ? run<1>(deck, a, ranks, own, from) : run<3>(deck, a, ranks, own, from);
 }

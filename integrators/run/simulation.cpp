@@ -123,8 +123,7 @@ Checkpoint Simulation<D>::state() {
   std::vector<SavedColumn> columns;
   for (const Column& c : setting_.outputs.added) columns.push_back({c.name, c.scale});
   if (!columns.empty()) checkpoint.state.part(columns_part, columns);
-  std::string begins_with = by.begins_with;
-  std::string field_map = by.field_map;
+  std::string begins_with = by.begins_with, field_map = by.field_map;
   if (!field_map.empty()) checkpoint.state.part("field map", field_map);
   if (!begins_with.empty()) checkpoint.state.part("begins with", begins_with);
   return checkpoint;

@@ -29,8 +29,27 @@ inline Bead<1> bead_at(double x, double v = 0, double stress = 0) {
 template <int D>
 Jet<D> jet_of(const std::vector<Bead<D>>& beads) {
   Jet<D> jet;
+  if (!beads.empty()) jet.y.resize(0, own_columns<D> + Eigen::Index(beads[0].added.size()));
   for (const auto& bead : beads) append<D>(jet, bead);
   return jet;
+}
+
+/// A bead of one column more, which has this value.
+template <int D>
+Bead<D> with_added(Bead<D> bead, double value) {
+  bead.added = {value};
+  return bead;
+}
+
+/// As the equations of motion see the jet at its time.
+template <int D>
+Chain<D> chain_of(const Jet<D>& jet, const Nozzle<D>& nozzle) {
+  Chain<D> chain;
+  const std::pair<Eigen::Index, Eigen::Index> all{0, jet.size()};
+  set_boundary<D>(chain, jet, nozzle, jet.t, jet.y);
+  set_points<D>(chain, jet, jet.y, all);
+  set_elements<D>(chain, jet, jet.y, all);
+  return chain;
 }
 
 /// The equations of motion with exactly these force terms.

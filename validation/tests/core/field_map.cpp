@@ -19,7 +19,7 @@ using namespace treejet;
 
 namespace {
 
-constexpr double statv_per_volt = 1 / 299.792458;
+constexpr double statv_per_volt = 1 / volt_per_statvolt;
 
 struct Sampled {
   FieldMap::Grid grid;  ///< as in the file: m

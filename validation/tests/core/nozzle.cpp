@@ -22,11 +22,7 @@ Parameters circling() {
 
 /// Strain rate of element i as the force terms see it.
 double strain_rate(const Jet<3>& jet, const Nozzle<3>& nozzle, Eigen::Index i) {
-  Chain<3> chain;
-  set_boundary<3>(chain, jet, nozzle, jet.t, jet.y);
-  set_points<3>(chain, jet, jet.y, {0, jet.size()});
-  set_elements<3>(chain, jet, jet.y, {0, jet.size()});
-  return chain.strain_rate[i];
+  return chain_of<3>(jet, nozzle).strain_rate[i];
 }
 
 }  // namespace
@@ -155,11 +151,7 @@ TEST_CASE("A bead that is released by flow has the columns of the element that i
   p.feed = Feed::flow;
   p.flow_rate = 0.01;
   const Nozzle<3> nozzle(p, {Column{.name = "solvent", .unit = "1", .at_birth = 0.9}});
-  Jet<3> jet;
-  jet.y = State<3>(0, own_columns<3> + 1);
-  Bead<3> bead(Vec<3>(1.5, 0, 0));
-  bead.added = {0.3};
-  append<3>(jet, bead);
+  Jet<3> jet = jet_of<3>({with_added<3>(Vec<3>(1.5, 0, 0), 0.3)});
   jet.held = true;
   jet.t = 1.2 / nozzle.feed().flow();  // late by a fifth
   nozzle.release(jet);

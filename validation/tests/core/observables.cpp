@@ -332,11 +332,8 @@ TEST_CASE(
   const Nozzle<3> nozzle(p, columns);
   const Collector collector(p);
   Statistics<3> statistics(nozzle, collector, {{}, columns});
-  Jet<3> jet;
-  jet.y = State<3>(0, own_columns<3> + 1);
-  Bead<3> bead(Vec<3>(2, 0, 0), Vec<3>(5, 0, 0), 0, 1.5);
-  bead.added = {0.4};  // half of it is left
-  append<3>(jet, bead);
+  const double half_is_left = 0.4;
+  Jet<3> jet = jet_of<3>({with_added<3>({Vec<3>(2, 0, 0), Vec<3>(5, 0, 0), 0, 1.5}, half_is_left)});
   jet.held = true;
   jet.t = 0.6 / nozzle.feed().flow();
   statistics.event(EventKind::removal, jet);

@@ -16,11 +16,8 @@ const Section section{/*radius*/ 0.2, /*l_step*/ 1};
 
 /// The accelerations of a jet by the law alone.
 State<3> accelerations(const Jet<3>& jet, const Nozzle<3>& nozzle, Threads threads = {1}) {
-  Chain<3> chain;
-  const int n = static_cast<int>(jet.size());
-  set_boundary<3>(chain, jet, nozzle, 0, jet.y);
-  set_points<3>(chain, jet, jet.y, {0, n});
-  set_elements<3>(chain, jet, jet.y, {0, n});
+  const Chain<3> chain = chain_of<3>(jet, nozzle);
+  const int n = chain.beads;
   SoftenedCoulomb<3> law(Q, section, nozzle.inserting());
   law.prepare(chain, {0, n}, threads);
   State<3> slope = State<3>::Zero(n, 3);

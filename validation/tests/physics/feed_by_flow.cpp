@@ -68,14 +68,6 @@ Sums sums(const Jet<3>& jet, const Nozzle<3>& nozzle) {
   return s;
 }
 
-Chain<3> chain_of(const Jet<3>& jet, const Nozzle<3>& nozzle) {
-  Chain<3> c;
-  set_boundary<3>(c, jet, nozzle, jet.t, jet.y);
-  set_points<3>(c, jet, jet.y, {0, jet.size()});
-  set_elements<3>(c, jet, jet.y, {0, jet.size()});
-  return c;
-}
-
 /// Keeps account of a run fed by flow.
 template <int D>
 struct Books final : Observer<D> {
@@ -191,10 +183,10 @@ TEST_CASE(
     "Both halves of the youngest element keep its stress, radius and strain rate at a release by flow") {
   const Nozzle<3> nozzle(fed());
   Jet<3> jet = crooked(2);
-  const Chain<3> before = chain_of(jet, nozzle);
+  const Chain<3> before = chain_of<3>(jet, nozzle);
   nozzle.release(jet);
   nozzle.place(jet);
-  const Chain<3> after = chain_of(jet, nozzle);
+  const Chain<3> after = chain_of<3>(jet, nozzle);
   const auto section = [](const Chain<3>& c, int i) { return c.volume[i] * c.inverse_length[i]; };
   for (int half : {3, 4}) {
     CHECK(after.stress[half] == before.stress[3]);
@@ -226,7 +218,7 @@ TEST_CASE("Fed momentum, forces and what the nozzle bears are all that changes a
     const Jet<3> jet = crooked(V);
     auto f = equations<3>(p, Viscoelastic<3>(L_step, F_ve), ElectricField<3>(E), CoulombForce<3>(Q, 1 << 30));
     const State<3> dy = slope(f, jet);
-    const Chain<3> c = chain_of(jet, nozzle);
+    const Chain<3> c = chain_of<3>(jet, nozzle);
     const int n = c.beads;
     const double s = V - 1;
     const Vec<3> v = c.velocity(n - 1), v_0 = c.nozzle_velocity, a_0 = nozzle.acceleration(jet.t);

@@ -33,11 +33,7 @@ TEST_CASE("The solvent of a bead that moves freely evaporates exponentially") {
   const double tau = 0.5, t = 1;
   auto f = equations<3>(plain_parameters());
   f.add_column(std::make_unique<Solvent>(tau));
-  Jet<3> jet;
-  jet.y = State<3>(0, own_columns<3> + 1);
-  Bead<3> bead(Vec<3>(1, 0, 0), Vec<3>(2, 0, 0));
-  bead.added = {0.9};
-  append(jet, bead);
+  Jet<3> jet = jet_of<3>({with_added<3>({Vec<3>(1, 0, 0), Vec<3>(2, 0, 0)}, 0.9)});
   march_to<3>(t, 0.005, jet, f, plain_parameters(), Scheme::rk4);
   // Runge-Kutta errs by (h / tau)^5 / 120 a step, 2e-11 in all
   CHECK(jet.y(0, own_columns<3>) == Approx(0.9 * std::exp(-t / tau)).epsilon(1e-9));

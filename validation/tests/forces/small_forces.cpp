@@ -33,14 +33,6 @@ Parameters fed() {
   return p;
 }
 
-Chain<3> chain_of(const Jet<3>& jet, const Nozzle<3>& nozzle) {
-  Chain<3> chain;
-  set_boundary<3>(chain, jet, nozzle, jet.t, jet.y);
-  set_points<3>(chain, jet, jet.y, {0, jet.size()});
-  set_elements<3>(chain, jet, jet.y, {0, jet.size()});
-  return chain;
-}
-
 }  // namespace
 
 TEST_CASE("Gravity and the needle's field act on a held bead as on one that stands there") {
@@ -48,7 +40,7 @@ TEST_CASE("Gravity and the needle's field act on a held bead as on one that stan
   Jet<3> jet = jet_of<3>({Bead<3>({2, 0.4, 0})});
   jet.held = true;
   jet.t = 0.5 / nozzle.feed().flow();
-  const Chain<3> chain = chain_of(jet, nozzle);
+  const Chain<3> chain = chain_of<3>(jet, nozzle);
   CHECK(Gravity<3>(2).on_held(chain) == Vec<3>(2, 0, 0));
   const NeedlePlate<3> needle(1.7, NeedleField(0.1, 20), Waveform());
   const Vec<3> place = chain.point.row(1).matrix().transpose();
@@ -60,11 +52,7 @@ TEST_CASE("Fluid enters the youngest element with the columns it has at birth") 
   const Nozzle<3> nozzle(fed(), {Constant().column()});
   EquationsOfMotion<3> f(nozzle, std::make_unique<Maxwell<3>>(), {}, nullptr, Threads{1});
   f.add_column(std::make_unique<Constant>());
-  Jet<3> jet;
-  jet.y = State<3>(0, own_columns<3> + 1);
-  Bead<3> bead(Vec<3>(1.5, 0, 0));
-  bead.added = {0.3};
-  append<3>(jet, bead);
+  Jet<3> jet = jet_of<3>({with_added<3>(Vec<3>(1.5, 0, 0), 0.3)});
   jet.held = true;
   jet.t = 0.25 / nozzle.feed().flow();
   State<3> slope;
@@ -99,11 +87,7 @@ TEST_CASE("A bead that has dried to half its mass is pushed twice as fast") {
   EquationsOfMotion<3> f(Nozzle<3>(p, columns), std::make_unique<Maxwell<3>>(), std::move(terms), nullptr,
                          Threads{1});
   f.add_column(std::make_unique<SolventColumn<3>>(evaporation));
-  Jet<3> jet;
-  jet.y = State<3>(0, own_columns<3> + 1);
-  Bead<3> bead(Vec<3>(1.5, 0, 0));
-  bead.added = {0.4};
-  append<3>(jet, bead);
+  const Jet<3> jet = jet_of<3>({with_added<3>(Vec<3>(1.5, 0, 0), 0.4)});
   CHECK(slope(f, jet)(0, velocity_column<3>) == Approx(0.8 / 0.5).epsilon(round_off));
 }
 
@@ -113,7 +97,7 @@ TEST_CASE("The lift of a bend goes by the square of the mean radius of its two e
   // an element four times as long as the other, of half its radius
   Jet<3> jet = jet_of<3>({Bead<3>({4, 1, 0}, {0, 0, 0}), Bead<3>({0, 1, 0}, {0, 3, 0})});
   const Nozzle<3> nozzle(plain_parameters());
-  const Chain<3> chain = chain_of(jet, nozzle);
+  const Chain<3> chain = chain_of<3>(jet, nozzle);
   State<3> slope(2, own_columns<3>);
   slope.setZero();
   Acceleration<3> a = slope.middleCols<3>(velocity_column<3>);
