@@ -35,6 +35,16 @@ struct GatherTimes {
   double exchange = 0, wait = 0;
 };
 
+/// What a rank has sent since it joined: to single others, and its part in what all do together, counted as a
+/// ring hands tables on. What MPI puts around it is not in it.
+struct RankTraffic {
+  std::int64_t messages = 0, message_bytes = 0;
+  std::int64_t exchanges = 0;  ///< in each, every rank tells all others how long its message is
+  std::int64_t tables = 0, table_bytes = 0;
+  std::int64_t sums = 0, sum_bytes = 0;
+  std::int64_t decisions = 0;  ///< greatest numbers, agreements: a word or two
+};
+
 /// "compute 1.2 s, exchange 0.1 s, wait 0.05 s ..." of a run that took so long; empty if nothing was sent.
 std::string times_description(const GatherTimes& times, double seconds);
 
@@ -70,6 +80,9 @@ class Ranks {
 
   /// The mean over the ranks.
   GatherTimes times() const;
+
+  /// Of this rank alone.
+  RankTraffic traffic() const;
 
   /// Whether all ranks have the same text.
   bool agree(const std::string& text) const;

@@ -33,6 +33,10 @@ GatherTimes Ranks::times() const {
   return {};
 }
 
+RankTraffic Ranks::traffic() const {
+  return {};
+}
+
 bool Ranks::agree(const std::string&) const {
   return true;
 }

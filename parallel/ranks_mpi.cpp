@@ -10,6 +10,7 @@
 
 #include "parallel/launch.hpp"
 #include "parallel/ranks.hpp"
+#include "parallel/work_clock.hpp"
 
 namespace treejet {
 
@@ -19,6 +20,10 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+std::int64_t bytes_of(std::size_t words) {
+  return static_cast<std::int64_t>(words * sizeof(double));
 }
 
 /// One message for each rank: its rows of all columns, and how long it spent on the gathering before.
@@ -53,6 +58,7 @@ struct Ranks::World {
   MPI_Comm everyone = MPI_COMM_NULL, failed = MPI_COMM_NULL, node = MPI_COMM_NULL;
   Message message;
   GatherTimes times;
+  RankTraffic traffic;
   double last = 0;  ///< seconds of the last gathering
 
   World() {
@@ -103,6 +109,7 @@ Ranks join_ranks() {
 
 void Ranks::gather(std::span<double* const> columns, const std::vector<int>& borders) const {
   if (size_ == 1) return;
+  const Working at(Work::exchange);
   const auto begin = Clock::now();
   Message& m = world_->message;
   const auto me = static_cast<std::size_t>(rank_);
@@ -110,6 +117,8 @@ void Ranks::gather(std::span<double* const> columns, const std::vector<int>& bor
   double* out = m.of(me);
   for (const double* column : columns) out = std::copy(column + borders[me], column + borders[me + 1], out);
   m.last_word(me) = world_->last;
+  ++world_->traffic.tables;
+  world_->traffic.table_bytes += bytes_of(m.values.size() - static_cast<std::size_t>(m.counts[me]));
 
   MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, m.values.data(), m.counts.data(), m.places.data(),
                  MPI_DOUBLE, world_->everyone);
@@ -135,11 +144,13 @@ void Ranks::gather(std::span<double* const> columns, const std::vector<int>& bor
 /// Messages and sums count as exchange; how much of it is waiting nobody tells.
 Ranks::Messages Ranks::exchange(const Messages& to) const {
   if (size_ == 1) return to;
+  const Working at(Work::exchange);
   const auto begin = Clock::now();
   const MPI_Comm comm = world_->everyone;
   std::vector<int> out(to.size()), in(to.size());
   for (std::size_t k = 0; k < to.size(); ++k) out[k] = static_cast<int>(to[k].size());
   MPI_Alltoall(out.data(), 1, MPI_INT, in.data(), 1, MPI_INT, comm);
+  ++world_->traffic.exchanges;
   Messages from(to.size());
   std::vector<MPI_Request> under_way;
   for (std::size_t k = 0; k < to.size(); ++k) {
@@ -150,7 +161,10 @@ Ranks::Messages Ranks::exchange(const Messages& to) const {
     }
     from[k].resize(static_cast<std::size_t>(in[k]));
     if (in[k] > 0) MPI_Irecv(from[k].data(), in[k], MPI_DOUBLE, other, 0, comm, &under_way.emplace_back());
-    if (out[k] > 0) MPI_Isend(to[k].data(), out[k], MPI_DOUBLE, other, 0, comm, &under_way.emplace_back());
+    if (out[k] == 0) continue;
+    MPI_Isend(to[k].data(), out[k], MPI_DOUBLE, other, 0, comm, &under_way.emplace_back());
+    ++world_->traffic.messages;
+    world_->traffic.message_bytes += bytes_of(to[k].size());
   }
   MPI_Waitall(static_cast<int>(under_way.size()), under_way.data(), MPI_STATUSES_IGNORE);
   world_->times.exchange += seconds_since(begin);
@@ -160,10 +174,13 @@ Ranks::Messages Ranks::exchange(const Messages& to) const {
 /// Nobody sends before the first rank asks: what arrives unasked for would pile up there.
 std::string Ranks::to_first(int from, std::string bytes) const {
   if (from == 0 || (rank_ != 0 && rank_ != from)) return bytes;
+  const Working at(Work::exchange);
   const auto begin = Clock::now();
   const MPI_Comm comm = world_->everyone;
   if (rank_ == from) {
     MPI_Ssend(bytes.data(), static_cast<int>(bytes.size()), MPI_CHAR, 0, 1, comm);
+    ++world_->traffic.messages;
+    world_->traffic.message_bytes += static_cast<std::int64_t>(bytes.size());
   } else {
     MPI_Status status;
     int count;
@@ -179,8 +196,11 @@ std::string Ranks::to_first(int from, std::string bytes) const {
 /// Not by Allreduce, which may add in another order on each rank.
 void Ranks::sum(std::span<double> numbers) const {
   if (size_ == 1) return;
+  const Working at(Work::exchange);
   const auto begin = Clock::now();
   const MPI_Comm comm = world_->everyone;
+  ++world_->traffic.sums;
+  world_->traffic.sum_bytes += bytes_of(numbers.size());
   const int count = static_cast<int>(numbers.size());
   MPI_Reduce(first() ? MPI_IN_PLACE : numbers.data(), numbers.data(), count, MPI_DOUBLE, MPI_SUM, 0, comm);
   MPI_Bcast(numbers.data(), count, MPI_DOUBLE, 0, comm);
@@ -197,8 +217,13 @@ GatherTimes Ranks::times() const {
   return mean;
 }
 
+RankTraffic Ranks::traffic() const {
+  return world_ ? world_->traffic : RankTraffic();
+}
+
 bool Ranks::agree(const std::string& text) const {
   if (size_ == 1) return true;
+  ++world_->traffic.decisions;
   const std::uint64_t mine = std::hash<std::string>{}(text);
   std::uint64_t bounds[2] = {mine, ~mine};
   MPI_Allreduce(MPI_IN_PLACE, bounds, 2, MPI_UINT64_T, MPI_MAX, world_->everyone);
@@ -206,12 +231,18 @@ bool Ranks::agree(const std::string& text) const {
 }
 
 int Ranks::greatest(int number) const {
-  if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, &number, 1, MPI_INT, MPI_MAX, world_->everyone);
+  if (size_ == 1) return number;
+  const Working at(Work::exchange);
+  ++world_->traffic.decisions;
+  MPI_Allreduce(MPI_IN_PLACE, &number, 1, MPI_INT, MPI_MAX, world_->everyone);
   return number;
 }
 
 double Ranks::greatest(double number) const {
-  if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, &number, 1, MPI_DOUBLE, MPI_MAX, world_->everyone);
+  if (size_ == 1) return number;
+  const Working at(Work::exchange);
+  ++world_->traffic.decisions;
+  MPI_Allreduce(MPI_IN_PLACE, &number, 1, MPI_DOUBLE, MPI_MAX, world_->everyone);
   return number;
 }
 

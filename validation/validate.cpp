@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <fstream>
+#include <functional>
 #include <numeric>
 
 #include "core/base/error.hpp"
@@ -14,6 +15,7 @@
 #include "core/observe/progress.hpp"
 #include "forces/coulomb/coulomb.hpp"
 #include "validation/support/deck_folder.hpp"
+#include "validation/support/deck_run.hpp"
 #include "validation/support/distributed_run.hpp"
 #include "validation/support/installation.hpp"
 #include "validation/support/machine.hpp"
@@ -31,7 +33,7 @@ Exit codes: 0 all claims hold, 1 one does not, 2 arguments, 4 files.)";
 
 struct Study {
   std::string name, meaning;
-  std::vector<void (*)(Report&)> parts;
+  std::vector<std::function<void(Report&)>> parts;
   double quick, full;  ///< share of the time of all, as once measured; any unit
 };
 
@@ -75,6 +77,58 @@ const std::vector<Study> studies = {
     {"determinism", "The same bytes on any number of ranks and threads", {treejet::study_determinism}, 6, 30},
     {"restart", "Runs killed at random moments and resumed", {treejet::study_restart}, 8, 120}};
 
+constexpr int most_threads = 4096;
+constexpr std::int64_t most_steps = 1'000'000'000;
+
+/// Of `treejet-validate scaling`: with a deck, that one in the place of case 3.
+void add_options(CLI::App& scaling, treejet::DeckScaling& asked) {
+  auto* deck = scaling.add_option("--deck", asked.deck, "this deck instead of case 3 at several sizes")
+                   ->check(CLI::ExistingFile);
+  std::vector<CLI::Option*> of_deck;
+  const auto numbers = [&](const char* name, std::vector<int>& list, const char* meaning) {
+    of_deck.push_back(
+        scaling.add_option(name, list, meaning)->delimiter(',')->check(CLI::Range(1, most_threads)));
+    return of_deck.back();
+  };
+  auto* workers =
+      numbers("--workers", asked.workers,
+              "1,2,4: each number as threads of one rank and as ranks (default: up to the cores)");
+  numbers("--ranks", asked.ranks, "1,2: numbers of ranks, each with every number of threads")
+      ->excludes(workers);
+  numbers("--threads", asked.threads, "1,2: numbers of threads of a rank")->excludes(workers);
+  of_deck.push_back(scaling.add_option("--data", asked.data, "of ranks: replicated, distributed or both")
+                        ->check(CLI::IsMember({"replicated", "distributed", "both"})));
+  of_deck.push_back(
+      scaling
+          .add_option("--steps", asked.steps, "of each run, after a warm-up (default: what --seconds allow)")
+          ->check(CLI::Range(std::int64_t{1}, most_steps)));
+  of_deck.push_back(scaling
+                        .add_option("--seconds", asked.seconds,
+                                    "in which one worker's steps are counted, without --steps (10)")
+                        ->check(CLI::Range(0.001, 1e6)));
+  of_deck.push_back(scaling.add_option("--turns", asked.turns, "of all teams; medians are shown (3)")
+                        ->check(CLI::Range(1, 1000)));
+  of_deck.push_back(scaling.add_option(
+      "--from", asked.from, "begin with the state of the run in this directory, as treejet run does"));
+  of_deck.push_back(scaling.add_option("--set", asked.overrides, "a directive that replaces the deck's")
+                        ->allow_extra_args(false));
+  for (CLI::Option* o : of_deck) o->needs(deck);
+}
+
+/// Of a part of that, in ranks or alone.
+void add_options(CLI::App& command, treejet::DeckRun& run) {
+  command.add_option("DECK", run.deck)->required();
+  command.add_option("--threads", run.threads, "threads of each rank")->check(CLI::Range(1, most_threads));
+  command.add_option("--steps", run.steps, "how many to measure")
+      ->check(CLI::Range(std::int64_t{1}, most_steps));
+  command.add_option("--seconds", run.seconds, "no step begins later; for one rank")
+      ->check(CLI::Range(0.001, 1e9));
+  command.add_option("--from", run.from, "begin with the state of the run in this directory");
+  command.add_option("--set", run.overrides, "a directive that replaces the deck's")->allow_extra_args(false);
+  command.add_option("--out", run.directory, "for the run's files")->required();
+  command.add_flag("--subdomains", run.subdomains, "the chain cut in one subdomain a rank");
+}
+
 /// What made the report and where, a line each.
 void write_provenance(const std::filesystem::path& directory, const std::string& command) {
   std::ofstream file(directory / "provenance.txt");
@@ -99,7 +153,7 @@ bool publish(const std::string& directory) {
 
 /// A study that breaks off is a claim that does not hold; the others go on.
 void run(const Study& study, Report& report) try {
-  for (const auto part : study.parts) part(report);
+  for (const auto& part : study.parts) part(report);
 } catch (const treejet::FileError&) {
   throw;
 } catch (const treejet::Error& e) {
@@ -136,6 +190,7 @@ int main(int argc, char** argv) {
   std::string directory = "results/validation";
   bool quick = false, full = false;
   std::filesystem::path jetspin_decks;
+  treejet::DeckScaling deck_scaling;
   const auto add = [&](const std::string& name, const std::string& meaning) {
     auto& command = *app.add_subcommand(name, meaning);
     command.add_option("--out", directory, "directory of tables, pictures and report, made if missing")
@@ -143,6 +198,7 @@ int main(int argc, char** argv) {
     if (name == "all" || name == "jetspin")
       command.add_option("--decks", jetspin_decks, "folder of JETSPIN's example decks, to judge them, too")
           ->check(CLI::ExistingDirectory);
+    if (name == "scaling") add_options(command, deck_scaling);
     auto* q = command.add_flag("--quick", quick, "fewer and shorter runs");
     command.add_flag("--full", full, "the whole, which is the default")->excludes(q);
   };
@@ -166,6 +222,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1000000000));
   single.add_flag("--tree", tree, "Coulomb sum by the tree");
   single.add_flag("--subdomains", scaling_run.subdomains, "the chain cut in one subdomain a rank");
+  treejet::DeckRun deck_run;
+  auto& one_deck = *app.add_subcommand("deck-run", "One measured stretch of a deck's run, in ranks or alone");
+  add_options(one_deck, deck_run);
   treejet::DistributedRun distributed_run;
   auto& subdomains =
       *app.add_subcommand("distributed-run", "One measured field of a chain held in subdomains, by ranks");
@@ -196,19 +255,30 @@ int main(int argc, char** argv) {
       run_decks(folder, report);
       return 0;
     }
+    if (one_deck.parsed()) {
+      ranks = treejet::join_ranks();
+      fmt::print("{}", text(measure(deck_run, ranks)));
+      return 0;
+    }
     if (single.parsed()) {
       ranks = treejet::join_ranks();
       if (tree) scaling_run.sum = treejet::CoulombSum::tree;
       fmt::print("{}", text(measure(scaling_run, ranks)));
       return 0;
     }
+    if (!deck_scaling.deck.empty()) require_valid(deck_scaling);
     const std::string name = app.get_subcommands().front()->get_name();
     std::vector<Study> chosen;
     for (const Study& s : studies)
       if (name == "all" || name == s.name) chosen.push_back(s);
     Report report(directory, quick);
     report.decks = jetspin_decks;
-    write_provenance(directory, fmt::format("treejet-validate {}{}", name, quick ? " --quick" : ""));
+    std::string command = fmt::format("treejet-validate {}{}", name, quick ? " --quick" : "");
+    if (!deck_scaling.deck.empty()) {
+      command += " --deck " + deck_scaling.deck;
+      chosen = {{"scaling", "", {[&](Report& r) { study_scaling_of(deck_scaling, r); }}, 1, 1}};
+    }
+    write_provenance(directory, command);
     return run(chosen, report);
   } catch (const treejet::Error& e) {
     return ranks.fail(e.exit_code(), fmt::format("treejet-validate: {}\n", e.what()));

@@ -1,5 +1,7 @@
 #include "forces/distributed/distributed_motion.hpp"
 
+#include "parallel/work_clock.hpp"
+
 namespace treejet {
 
 namespace {
@@ -15,6 +17,7 @@ std::vector<double> message(const Jet<3>& jet, const State<3>& y, int i) {
 }  // namespace
 
 void DistributedMotion::operator()(const Jet<3>& jet, double t, const State<3>& y, State<3>& slope) {
+  const Working at(Work::local);
   slope.resize(y.rows(), y.cols());
   if (subdomains_.beads(jet) == 0) return;
   const Rows own = subdomains_.own();

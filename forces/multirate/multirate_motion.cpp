@@ -7,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/base/weighted_sum.hpp"
 #include "forces/multirate/field_of_charge.hpp"
+#include "parallel/work_clock.hpp"
 
 namespace treejet {
 
@@ -34,6 +35,7 @@ Rows slow_region(Eigen::Index n) {
 
 template <int D>
 void MultirateMotion<D>::operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) {
+  const Working at(Work::multirate);
   if (!history_.continuable(y.rows())) {
     full_(jet, t, y, slope);
     ++full_evaluations_;
@@ -49,6 +51,7 @@ void MultirateMotion<D>::operator()(const Jet<D>& jet, double t, const State<D>&
 template <int D>
 bool MultirateMotion<D>::on_accepted_step(const Jet<D>& jet, double t, const State<D>& y,
                                           const State<D>* known, State<D>& slope) {
+  const Working at(Work::multirate);
   const double since = history_.since(t);
   const bool continues = history_.continuable(y.rows());
   if (continues && since < interval_) {
@@ -101,6 +104,7 @@ double MultirateMotion<D>::aim() const {
 template <int D>
 const FastRegion<D>* MultirateMotion<D>::fast_region(const Jet<D>& jet) {
   if (!history_.continuable(jet.size()) || all_.beads(jet) == fast_region_beads) return nullptr;
+  const Working at(Work::multirate);
   follow(jet, jet.y);
   fast_region_.jet.t = jet.t;
   gather_fast(jet.slope, fast_region_.jet.slope);
@@ -232,6 +236,7 @@ void MultirateMotion<D>::accelerate(Rows rows, State<D>& slope) const {
 
 template <int D>
 void MultirateMotion<D>::complete(const Jet<D>& jet, double h, const State<D>& some, State<D>& next) {
+  const Working at(Work::multirate);
   const Rows middle = slow_region(jet.size());
   next.resize(jet.size(), jet.y.cols());
   scatter_fast(some, next);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "parallel/work_clock.hpp"
+
 namespace treejet {
 
 namespace {
@@ -23,6 +25,7 @@ EquationsOfMotion<D>::EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<Stress
 
 template <int D>
 void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) {
+  const Working at(Work::local);
   const int n = static_cast<int>(y.rows());
   slope.resize(n, y.cols());
   if (n == 0) return;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/jet/scales.hpp"
+#include "parallel/work_clock.hpp"
 
 namespace treejet {
 
@@ -16,6 +17,38 @@ OutputSetting output_setting(OutputSetting outputs, const Columns& added, const 
   }
   return outputs;
 }
+
+/// The watchers of a run, whose time is told from that of the rest.
+template <int D>
+class Watchers final : public Observer<D> {
+ public:
+  explicit Watchers(std::vector<Observer<D>*> all) : all_(std::move(all)) {}
+
+  void start(const Jet<D>& jet) override {
+    tell([&](Observer<D>& w) { w.start(jet); });
+  }
+  void segment(const Jet<D>& jet, const DenseOutput<D>& segment) override {
+    tell([&](Observer<D>& w) { w.segment(jet, segment); });
+  }
+  void event(EventKind kind, const Jet<D>& jet) override {
+    tell([&](Observer<D>& w) { w.event(kind, jet); });
+  }
+  void refined(const Jet<D>& jet, const Refinement& refinement) override {
+    tell([&](Observer<D>& w) { w.refined(jet, refinement); });
+  }
+  void finish(const Jet<D>& jet) override {
+    tell([&](Observer<D>& w) { w.finish(jet); });
+  }
+
+ private:
+  template <class F>
+  void tell(const F& f) {
+    const Working at(Work::output);
+    for (Observer<D>* w : all_) f(*w);
+  }
+
+  std::vector<Observer<D>*> all_;
+};
 
 /// Reads a march that this one takes over.
 template <int D>
@@ -47,8 +80,9 @@ Simulation<D>::Simulation(const Deck& deck, const System<D>& system, const Setti
                        : std::optional<Checkpoints>({setting_.outputs.directory, setting_.outputs.existing})),
       outputs_(deck.parameters, system.nozzle, system.collector, setting_.outputs, system.decomposition,
                setting.observables),
+      watchers_(std::make_unique<Watchers<D>>(outputs_.observers())),
       integration_(
-          deck.parameters, system, outputs_.observers(), [this] { return stop_here(); },
+          deck.parameters, system, {watchers_.get()}, [this] { return stop_here(); },
           [this] {
             if (leaves_state()) before_end_ = state();
           }),
@@ -108,6 +142,7 @@ bool Simulation<D>::stop_here() {
 /// Of a jet in subdomains all ranks give theirs to the one that writes.
 template <int D>
 void Simulation<D>::save() {
+  const Working at(Work::output);
   if (!checkpoints_) return decomposition_.write(jet_, {});
   // a state that the final time has had an influence on would not do for a later one
   Checkpoint checkpoint = before_end_ ? *before_end_ : state();

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "core/deck/deck.hpp"
@@ -41,6 +42,7 @@ class Simulation {
   bool finish();
 
   double t() const;  ///< s
+  const Effort& effort() const { return march_.effort(); }
 
   /// What `finish` did: time, beads, effort, files.
   std::string summary() const;
@@ -64,6 +66,7 @@ class Simulation {
   std::optional<Checkpoints> checkpoints_;  ///< none if another process makes the outputs
   std::optional<Checkpoint> before_end_;    ///< the last state that the final time had no influence on
   Outputs<D> outputs_;
+  std::unique_ptr<Observer<D>> watchers_;
   Integration<D> integration_;
   March<D>& march_;
   using Clock = std::chrono::steady_clock;

@@ -12,6 +12,7 @@
 #include "validation/support/machine.hpp"
 #include "validation/support/rank_layout.hpp"
 #include "validation/support/scaling_run.hpp"
+#include "validation/support/spread.hpp"
 #include "validation/support/studies.hpp"
 
 namespace treejet {
@@ -57,15 +58,6 @@ struct Sample {
     std::vector<Measurement> by_time = turns;
     std::sort(by_time.begin(), by_time.end(), [](auto& a, auto& b) { return a.seconds < b.seconds; });
     return by_time[(by_time.size() - 1) / 2];
-  }
-};
-
-/// Least, median and greatest of some values.
-struct Spread {
-  double least, median, most;
-  explicit Spread(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    least = values.front(), median = values[(values.size() - 1) / 2], most = values.back();
   }
 };
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <sstream>
 
 #include "forces/coulomb/solver/coulomb_solver.hpp"
+#include "validation/support/machine.hpp"
 
 namespace treejet {
 
@@ -58,18 +58,6 @@ double error(int n, Rows rows, const PointSet& own, const FieldSet& field, const
     size += std::pow(exact[k], 2);
   }
   return std::sqrt(difference / size);
-}
-
-/// The most memory that this process ever had.
-double peak_bytes() {
-  std::ifstream file("/proc/self/status");
-  for (std::string word; file >> word;)
-    if (word == "VmHWM:") {
-      double kilobytes;
-      file >> kilobytes;
-      return 1024 * kilobytes;
-    }
-  return std::nan("");
 }
 
 }  // namespace

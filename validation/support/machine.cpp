@@ -71,4 +71,30 @@ std::string processor_name() {
   return "unknown";
 }
 
+std::string cores_of(const Ranks& ranks) {
+  const CoreSet mine = cores_of_this_process();
+  std::size_t low = 0, high = mine.size() - 1;
+  while (low < high && !mine[low]) ++low;
+  while (high > low && !mine[high]) --high;
+  const double own[] = {double(low), double(high)};
+  const std::vector<double> ends = ranks.of_all(own);
+  std::string text;
+  for (std::size_t k = 0; k < ends.size(); k += 2) {
+    if (k > 0) text += ",";
+    text += ends[k] == ends[k + 1] ? fmt::format("{}", ends[k]) : fmt::format("{}-{}", ends[k], ends[k + 1]);
+  }
+  return text;
+}
+
+double peak_bytes() {
+  std::ifstream file("/proc/self/status");
+  for (std::string word; file >> word;)
+    if (word == "VmHWM:") {
+      double kilobytes;
+      file >> kilobytes;
+      return 1024 * kilobytes;
+    }
+  return std::nan("");
+}
+
 }  // namespace treejet

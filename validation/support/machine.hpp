@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "parallel/ranks.hpp"
+
 namespace treejet {
 
 /// Of those this process may run on; the threads of a core count as one.
@@ -10,6 +12,12 @@ int physical_cores();
 
 /// "Intel(R) Xeon(R) Processor", or "unknown".
 std::string processor_name();
+
+/// The most memory that this process ever had.
+double peak_bytes();
+
+/// First and last core of each rank, "0-1,2-3". Called by all ranks.
+std::string cores_of(const Ranks& ranks);
 
 /// What the processors have done since an instant.
 class ProcessorUse {

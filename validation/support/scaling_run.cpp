@@ -8,6 +8,8 @@
 
 #include "integrators/run/integration.hpp"
 #include "validation/support/experiment.hpp"
+#include "validation/support/machine.hpp"
+#include "validation/support/part_of_jet.hpp"
 
 namespace treejet {
 
@@ -47,13 +49,6 @@ Jet<3> refined(const Jet<3>& jet, const Nozzle<3>& nozzle, int pieces) {
         jet.y(i / pieces, stress_column<3>);
   }
   return out;
-}
-
-/// Some beads of a jet, by number.
-Jet<3> part(const Jet<3>& whole, const std::vector<int>& rows) {
-  Jet<3> some = at<3>(whole, whole.t, whole.y(rows, Eigen::all));
-  for (auto* constants : {&some.mass, &some.charge, &some.volume}) *constants = (*constants)(rows).eval();
-  return some;
 }
 
 struct Over {};
@@ -104,22 +99,6 @@ class Stopwatch final : public RightHandSide<3> {
   const State<3>* slope_ = nullptr;
 };
 
-/// First and last core of each rank.
-std::string cores(const Ranks& ranks) {
-  const CoreSet mine = cores_of_this_process();
-  std::size_t low = 0, high = mine.size() - 1;
-  while (low < high && !mine[low]) ++low;
-  while (high > low && !mine[high]) --high;
-  const double own[] = {double(low), double(high)};
-  const std::vector<double> ends = ranks.of_all(own);
-  std::string text;
-  for (std::size_t k = 0; k < ends.size(); k += 2) {
-    if (k > 0) text += ",";
-    text += ends[k] == ends[k + 1] ? fmt::format("{}", ends[k]) : fmt::format("{}-{}", ends[k], ends[k + 1]);
-  }
-  return text;
-}
-
 }  // namespace
 
 Measurement measure(const ScalingRun& r, const Ranks& ranks) {
@@ -146,7 +125,7 @@ Measurement measure(const ScalingRun& r, const Ranks& ranks) {
   } catch (const Over&) {
   }
   stopwatch.result.beads = static_cast<int>(scene.decomposition().beads(scene.jet));
-  stopwatch.result.cores = cores(ranks);
+  stopwatch.result.cores = cores_of(ranks);
   return stopwatch.result;
 }
 

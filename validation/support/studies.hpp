@@ -1,6 +1,7 @@
 #pragma once
 /// The studies of treejet-validate. Each prints and writes its tables and adds its claims to the report.
 
+#include "validation/support/deck_scaling.hpp"
 #include "validation/support/report.hpp"
 
 namespace treejet {
@@ -48,6 +49,9 @@ void study_restart(Report& report);
 /// Speedup and efficiency of ranks and threads on case 3 at several sizes, as in the paper's performance
 /// section, and that none of them changes a bit of the answer.
 void study_scaling(Report& report);
+
+/// The same of a deck, with where the time goes: a table for a paper.
+void study_scaling_of(const DeckScaling& asked, Report& report);
 
 /// The field of a chain held in subdomains, one a rank: bytes, memory, accuracy, and a model of many ranks.
 void study_distributed(Report& report);

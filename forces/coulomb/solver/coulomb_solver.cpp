@@ -10,6 +10,7 @@
 #include "forces/coulomb/solver/autotune.hpp"
 #include "forces/coulomb/solver/sample.hpp"
 #include "parallel/share_rows.hpp"
+#include "parallel/work_clock.hpp"
 
 namespace treejet {
 
@@ -82,6 +83,7 @@ CoulombSolver::CoulombSolver(const CoulombRequest& request, Isa isa, const TreeR
 void CoulombSolver::field(const PointCharges<3>& points, Rows rows, const FieldArrays<3>& field,
                           Threads threads, double* potential) {
   const bool by_tree = decide(points, threads);
+  const Working at(Work::evaluate);
   if (!by_tree) {
     const std::array<double*, 4> columns = {field[0], field[1], field[2], potential};
     share_rows(ranks_.sharing, threads, rows, direct_block, std::span(columns).first(potential ? 4 : 3),
@@ -123,6 +125,7 @@ bool CoulombSolver::decide(const PointCharges<3>& points, Threads threads) {
 }
 
 bool CoulombSolver::keeps(const PointCharges<3>& points, int all, Threads threads) {
+  const Working at(Work::tuning);
   const CoulombSample sample(tree_, threads);
   policy_.measured(all, points.n);
   return keeps_accuracy(
@@ -143,6 +146,7 @@ void CoulombReport::record(const SampledError& sampled) {
 }
 
 void CoulombSolver::choose(const PointCharges<3>& points, int all, Threads threads) {
+  const Working at(Work::tuning);
   const TunedShape choice = tuned_shape(points, all, request_, tree_, threads);
   report_.direct = choice.direct;
   report_.reason = choice.reason;

@@ -8,6 +8,7 @@
 #include "forces/coulomb/tree/barnes_hut.hpp"
 #include "forces/coulomb/tree/space_order.hpp"
 #include "forces/coulomb/tree/traversal.hpp"
+#include "parallel/work_clock.hpp"
 
 namespace treejet {
 
@@ -33,6 +34,7 @@ struct TreeField::Task {
 
 void TreeField::place(const PointCharges<3>& points, const TreeShape& shape, Threads threads,
                       bool keep_order) {
+  const Working at(Work::build);
   Cells& cells = tree_.cells;
   const bool same_cells = cells.points() == points.n && cells.leaf() == shape.leaf;
   if (same_cells)
@@ -90,7 +92,11 @@ void TreeField::expand(Threads threads) {
   tree_.order = shape_.order;
   tree_.moments.resize(index(tree_.cells.size()) * tree_.moment_stride());
   tree_.locals.resize(index(tree_.cells.size()) * tree_.local_stride());
-  move_up(*kernels_, tree_.cells, tree_.expansions(), tree_.all_points(), threads);
+  {
+    const Working at(Work::upward);
+    move_up(*kernels_, tree_.cells, tree_.expansions(), tree_.all_points(), threads);
+  }
+  const Working at(Work::exchange);
   others_.graft(tree_, shape_.opening);
 }
 
@@ -114,6 +120,7 @@ std::vector<int> TreeField::leaves_of(Rows rows) const {
 
 Interactions TreeField::evaluate(const std::vector<int>& leaves, Rows rows, const FieldArrays<3>& field,
                                  Threads threads, double* potential) {
+  const Working at(Work::evaluate);
   const Interactions done = sum(leaves, threads, potential != nullptr);
   for_each_block(threads, {0, static_cast<int>(leaves.size())}, leaves_a_task, [&](Rows some) {
     for (int n = some.first; n < some.last; ++n)
@@ -123,6 +130,7 @@ Interactions TreeField::evaluate(const std::vector<int>& leaves, Rows rows, cons
 }
 
 Interactions TreeField::sum(const std::vector<int>& leaves, Threads threads, bool potential) {
+  const Working at(Work::evaluate);
   tree_.points.keep_potential(potential);
   const std::span<const int> own = own_share(leaves);
   Interactions done;
@@ -152,6 +160,7 @@ std::span<const int> TreeField::own_share(const std::vector<int>& leaves) const 
 /// The sums at the points of the leaves, packed leaf after leaf, go from each rank to all.
 void TreeField::gather(const std::vector<int>& leaves, std::size_t sums) {
   if (ranks_.sharing.size() == 1) return;
+  const Working at(Work::exchange);
   const Cells& cells = tree_.cells;
   std::vector<int> packed = {0};  // place of each leaf
   for (int leaf : leaves) packed.push_back(packed.back() + cells.leaf_points(leaf).size());

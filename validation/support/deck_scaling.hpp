@@ -1,0 +1,43 @@
+#pragma once
+/// What is asked of the scaling of a deck, and the teams of workers that follow from it.
+
+#include <string>
+#include <vector>
+
+#include "validation/support/rank_layout.hpp"
+
+namespace treejet {
+
+struct DeckScaling {
+  std::string deck;
+  std::vector<std::string> overrides = {};
+  std::string from = {};  ///< directory of a run whose state is the beginning
+  std::vector<int> workers = {}, ranks = {}, threads = {};
+  std::string data = "both";  ///< replicated, distributed
+  std::int64_t steps = 0;     ///< of each run; 0: as many as one worker takes in `seconds`
+  double seconds = 10;
+  int turns = 3;
+};
+
+/// InputError or FileError unless the deck, the state that it begins with and the data asked for are such as
+/// can be run.
+void require_valid(const DeckScaling& asked);
+
+/// Why the deck is not run with subdomains, the reader's words; empty if it is.
+std::string undistributable(const DeckScaling& asked);
+
+/// A team, and whether its ranks hold a subdomain of the chain each or all of it.
+struct Team {
+  RankLayout layout;
+  bool subdomains = false;
+
+  /// "serial", "threads", "ranks", "mixed", "distributed".
+  std::string name() const;
+};
+
+/// The serial program first, each team once. Of `workers` each number by threads and by ranks; of `ranks` and
+/// `threads` all products; of none of them the powers of 2 up to the cores. InputError for ranks where there
+/// is no MPI. `distributable`: subdomains are possible.
+std::vector<Team> teams(const DeckScaling& asked, int cores, bool distributable);
+
+}  // namespace treejet
