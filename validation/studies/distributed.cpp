@@ -9,6 +9,7 @@
 #include "validation/support/machine.hpp"
 #include "validation/support/rank_layout.hpp"
 #include "validation/support/scaling_model.hpp"
+#include "validation/support/spread.hpp"
 #include "validation/support/studies.hpp"
 
 namespace treejet {
@@ -51,6 +52,8 @@ DistributedMeasurement measure_all(Report& report, const std::vector<Case>& case
                  ranks <= cores ? Cell(m.seconds) : Cell(std::nan(""))});
       const std::string what = fmt::format("{} of {} points on {} ranks", c.chain, c.points, ranks);
       report.check("error for accuracy 1e-5, " + what, m.error, 0, accuracy);
+      report.check("ranks that send anything else than the model says, to the byte, " + what, m.unlike_model,
+                   0, 0);
       // an equal share and as much again for what is seen of others, which long subdomains have less of
       if (c.points / ranks >= 100'000)
         report.check("memory held against an equal share, " + what, m.held * ranks / alone.held, 0, 2);
@@ -59,20 +62,47 @@ DistributedMeasurement measure_all(Report& report, const std::vector<Case>& case
   return base;
 }
 
+/// Where the model can be asked for a time: two ranks from one, by turns.
+void compare_times(Report& report) {
+  const int cores = physical_cores(), points = report.quick ? 20'000 : 100'000;
+  const std::string claim = fmt::format("seconds on 2 ranks against the model's, jet of {} points", points);
+  if (cores < 2) return report.not_judged(claim, "there is one core");
+  auto table =
+      report.table("distributed_time", "Two ranks and the model: a share of the points each, by turns",
+                   {"points", "seconds on 1", "seconds on 2", "work of the busier / half of all",
+                    "MODEL seconds on 2", "measured / MODEL"});
+  const ProcessorUse processors;
+  std::vector<double> ratios;
+  for (int turn = 0; turn < (report.quick ? 1 : 7); ++turn) {
+    const auto one = measured("jet", points, 1, 5, cores), two = measured("jet", points, 2, 5, cores);
+    const double model = one.seconds * two.work / one.work;
+    ratios.push_back(two.seconds / model);
+    table.row(
+        {std::int64_t{points}, one.seconds, two.seconds, 2 * two.work / one.work, model, ratios.back()});
+  }
+  if (report.quick) return report.not_judged(claim, "one turn is too few to judge a time by");
+  if (processors.by_others() > 0.05)
+    return report.not_judged(claim, fmt::format("others took {:.0f} % of the processors' time; found {:.3g}",
+                                                100 * processors.by_others(), Spread(ratios).median));
+  // exchange and what both cores share, memory and its bus, are not in it
+  report.check(claim, Spread(ratios).median, 0.8, 1.25);
+}
+
 void print_model(Report& report, const DistributedMeasurement& base) {
   const LongChain jet("jet");
   ScalingModel model{base.seconds / base.points, 0};
   auto table = report.table(
       "distributed_model", "MODEL, not a measurement: whipping jets of 1e6 and 1e8 points, and 1e4 a rank",
       {"scaling", "points", "ranks", "partners", "messages [kB]", "summaries [kB]", "messages",
-       "MODEL seconds", "of it points", "of it summaries and messages", "of it network", "MODEL efficiency"});
+       "MODEL seconds", "of it points", "of it cards", "of it latency and messages", "MODEL efficiency"});
   const auto row = [&](const std::string& scaling, double points, int ranks) {
     const Volume v = ranks > 1 ? volume(jet, static_cast<int>(points), ranks, base.shape) : Volume{};
     model.seconds_a_summary = v.seconds_a_summary;
     const double seconds = model.seconds(points, ranks, v), work = model.seconds_a_point * points / ranks,
-                 looking = v.seconds_a_summary * (ranks - 1);
-    table.row({scaling, points, std::int64_t{ranks}, v.partners, v.messages / 1e3, v.summaries / 1e3,
-               model.messages(ranks, v), seconds, work, looking, seconds - work - looking, work / seconds});
+                 cards = ranks > 1 ? model.seconds_for_cards(ranks, v) : 0;
+    table.row({scaling, points, std::int64_t{ranks}, v.partners, v.messages / 1e3,
+               double(v.common.table_bytes) / 1e3, model.messages(ranks, v), seconds, work, cards,
+               seconds - work - cards, work / seconds});
   };
   const std::vector<int> teams =
       report.quick ? std::vector<int>{1, 100} : std::vector<int>{1, 10, 100, 1000, 10'000};
@@ -85,7 +115,9 @@ void print_model(Report& report, const DistributedMeasurement& base) {
       "\nMODEL, with these assumptions: seconds = points of a rank x {:.3g} us (measured on one rank, one "
       "core of "
       "this machine)\n"
-      "  + other ranks x the time of looking at a summary and writing a message (measured here)\n"
+      "  + cards, which grow with the number of ranks: other ranks x the time of looking at a summary and "
+      "writing a message\n"
+      "    (measured here), and the bytes of summaries and lengths of messages\n"
       "  + messages x {:.0f} us + bytes / {:.0f} GB/s (both assumed, a common fabric's).\n"
       "  Summaries, messages and partners are counted for the subdomains in the middle and at the end of the "
       "chain.\n"
@@ -113,14 +145,15 @@ void study_distributed(Report& report) {
   std::vector<Case> cases;
   for (const int points : report.quick ? std::vector<int>{20'000} : std::vector<int>{100'000, 1'000'000})
     for (const char* chain : {"jet", "coil"}) {
-      Case c{chain, points, {1, 2, 4, 8}};
+      Case c{chain, points, {1, 2, 3, 5, 8}};
       if (report.quick) c.ranks = {1, 3};
-      if (points == 100'000) c.ranks.push_back(32);
+      if (points == 100'000) c.ranks.insert(c.ranks.end(), {16, 32});
       cases.push_back(c);
     }
   const ProcessorUse processors;
   const DistributedMeasurement base = measure_all(report, cases);
   fmt::print("\nothers took {:.0f} % of the processors' time meanwhile\n", 100 * processors.by_others());
+  compare_times(report);
   print_model(report, base);
 }
 

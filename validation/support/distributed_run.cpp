@@ -8,6 +8,7 @@
 
 #include "forces/coulomb/solver/coulomb_solver.hpp"
 #include "validation/support/machine.hpp"
+#include "validation/support/rank_volume.hpp"
 
 namespace treejet {
 
@@ -60,6 +61,16 @@ double error(int n, Rows rows, const PointSet& own, const FieldSet& field, const
   return std::sqrt(difference / size);
 }
 
+/// Whether what this rank sent in an evaluation is what the model says.
+bool as_modelled(const RankTraffic& counted, const LongChain& chain, const std::vector<int>& borders,
+                 const TreeShape& shape, const Ranks& ranks) {
+  if (ranks.size() == 1) return counted == RankTraffic();
+  const auto of = [&](int k) {
+    return chain.points(borders.back(), {borders[index(k)], borders[index(k + 1)]});
+  };
+  return counted == traffic_of(ranks.size(), of, shape)[index(ranks.rank())];
+}
+
 }  // namespace
 
 LongChain::LongChain(const std::string& kind) : curve_(kind == "coil" ? dense_coil : jet), length_{0} {
@@ -88,18 +99,22 @@ DistributedMeasurement measure(const DistributedRun& run, const Ranks& ranks) {
   const std::vector<int> borders = ranks.borders({0, run.points}, 1);
   const auto me = static_cast<std::size_t>(ranks.rank());
   const Rows rows = {borders[me], borders[me + 1]};
-  const PointSet own = LongChain(run.chain).points(run.points, rows);
+  const LongChain chain(run.chain);
+  const PointSet own = chain.points(run.points, rows);
   FieldSet field(own.size());
   const double before = peak_bytes();
   CoulombSolver solver({.method = CoulombMethod::tree, .accuracy = run.accuracy, .measured_every = 1'000'000},
                        default_isa(), {.subdomains = ranks});
   solver.field(own.view(), {0, own.size()}, field.view(), {run.threads});  // chooses the shape
   double seconds = 1e300;
+  RankTraffic counted;
   for (int k = 0; k < run.evaluations; ++k) {
+    const RankTraffic sent_before = ranks.traffic();
     const auto begin = std::chrono::steady_clock::now();
     solver.field(own.view(), {0, own.size()}, field.view(), {run.threads});
     seconds =
         std::min(seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    counted = ranks.traffic() - sent_before;
   }
   DistributedMeasurement m;
   m.points = run.points, m.ranks = ranks.size(), m.shape = solver.report().shape;
@@ -112,14 +127,17 @@ DistributedMeasurement measure(const DistributedRun& run, const Ranks& ranks) {
   m.sent = most(traffic.sent), m.received = most(traffic.received);
   m.cells = most(traffic.cells), m.grafted = most(traffic.points), m.partners = most(traffic.partners);
   m.work = solver.report().work;
+  double unlike[] = {as_modelled(counted, chain, borders, m.shape, ranks) ? 0.0 : 1.0};
+  ranks.sum(unlike);
+  m.unlike_model = unlike[0];
   return m;
 }
 
 std::string text(const DistributedMeasurement& m) {
-  return fmt::format("measured {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}\n", m.points, m.ranks,
+  return fmt::format("measured {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}\n", m.points, m.ranks,
                      m.seconds, m.error, m.expected, m.sent, m.received, m.cells, m.grafted, m.partners,
                      m.held, m.before, m.process, m.work, m.shape.order, m.shape.opening, m.shape.leaf,
-                     m.shape.block);
+                     m.shape.block, m.unlike_model);
 }
 
 DistributedMeasurement distributed_measurement(const std::string& text) {
@@ -127,7 +145,7 @@ DistributedMeasurement distributed_measurement(const std::string& text) {
   std::string word;
   std::istringstream(text) >> word >> m.points >> m.ranks >> m.seconds >> m.error >> m.expected >> m.sent >>
       m.received >> m.cells >> m.grafted >> m.partners >> m.held >> m.before >> m.process >> m.work >>
-      m.shape.order >> m.shape.opening >> m.shape.leaf >> m.shape.block;
+      m.shape.order >> m.shape.opening >> m.shape.leaf >> m.shape.block >> m.unlike_model;
   return m;
 }
 

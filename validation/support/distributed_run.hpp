@@ -38,8 +38,9 @@ struct DistributedMeasurement {
   double sent = 0, received = 0;   ///< bytes of an evaluation
   double cells = 0, grafted = 0, partners = 0;  ///< cells and points received; ranks that sent messages
   double held = 0, before = 0,
-         process = 0;  ///< bytes: structures; most the process ever had, before and after
-  double work = 0;     ///< of the busiest rank, in direct pairs
+         process = 0;       ///< bytes: structures; most the process ever had, before and after
+  double unlike_model = 0;  ///< ranks that send anything else than rank_volume.hpp says
+  double work = 0;          ///< of the busiest rank, in direct pairs
   TreeShape shape;
 };
 
