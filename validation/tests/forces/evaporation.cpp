@@ -6,6 +6,7 @@
 
 #include "forces/terms/evaporation.hpp"
 #include "validation/support/run.hpp"
+#include "validation/support/scenes.hpp"
 
 using namespace treejet;
 
@@ -253,6 +254,38 @@ TEST_CASE("Flory and Huggins' activity drives the drying, the fluid thickens and
   CHECK(e.driving(0.2) == Approx(0.01 * 0.5 * std::exp(0.5 + 0.4 * 0.25)).epsilon(1e-14));
   CHECK(e.viscosity_ratio(0.81) == Approx(std::pow(10, 3 * (0.9 - std::sqrt(0.2)))).epsilon(1e-14));
   CHECK(e.relaxation_ratio(0.4) == Approx(std::pow(2, 1.5)).epsilon(1e-14));
+}
+
+TEST_CASE(
+    "A drying Maxwell element relaxes by its own time, and a scheme that solves for it knows; a spring does "
+    "not") {
+  const Parameters p = drying(EvaporationModel::jetspin);
+  const Evaporation evaporation(p);
+  const Columns columns = {SolventColumn<1>(evaporation).column()};
+  const Nozzle<1> nozzle(p, columns);
+  const double relaxation = evaporation.relaxation_ratio(0.5);
+  REQUIRE(std::abs(relaxation - 1) > 0.1);  // so that the fluid at the nozzle would be another one
+  Jet<1> jet;
+  jet.y = State<1>(0, own_columns<1> + 1);
+  Bead<1> bead{Vec<1>(2), Vec<1>(0), 3};
+  bead.added = {0.06 / 0.5 - 0.06};
+  append(jet, bead);
+  for (const bool relaxes : {true, false}) {
+    DryingStress<1> law(evaporation, relaxes);
+    EquationsOfMotion<1> f(nozzle, std::make_unique<DryingStress<1>>(law), {}, nullptr, Threads{1});
+    f.add_column(std::make_unique<SolventColumn<1>>(evaporation));
+    const auto stress_rate = [&](double stress) {
+      jet.y(0, stress_column<1>) = stress;
+      State<1> slope;
+      f(jet, 0, jet.y, slope);
+      return slope(0, stress_column<1>);
+    };
+    const double expected = relaxes ? -1 / relaxation : 0;
+    CHECK(stress_rate(3) - stress_rate(2) ==
+          Approx(expected).epsilon(1e-12));  // linear: no more than round-off
+    Chain<1> chain = chain_of(jet, nozzle);
+    CHECK(law.derivative(chain, 0).by_state(0, 0) == Approx(expected).epsilon(1e-14));
+  }
 }
 
 TEST_CASE("A jet that goes with the wind dries as one at rest in still air") {

@@ -280,6 +280,20 @@ TEST_CASE("Two rates are left out of scenes that are solved for, or whose stress
   CHECK_FALSE(multirate(1000));  // the additive pair
 }
 
+TEST_CASE("Two rates are left out where the stress law has a kink, and say so") {
+  Parameters p = pvp(1, 1, 1e-6);
+  p.multirate = Multirate::automatic;
+  p.stress_law = StressLawKind::oldroyd_b;
+  CHECK(compose<3>(p, {1}).multirate != nullptr);
+  p.stress_law = StressLawKind::herschel_bulkley;
+  p.yield_stress = 1000;
+  const Scene<3> scene = compose<3>(p, {1});
+  CHECK(scene.multirate == nullptr);
+  CHECK(std::any_of(scene.left_out.begin(), scene.left_out.end(), [](const Composed& c) {
+    return c.term == "two rates" && c.reason.find("kink") != std::string::npos;
+  }));
+}
+
 TEST_CASE("The estimate of the fastest rate: relaxation in viscous chains, waves in elastic ones") {
   // tau = 0.4 us: 1 / tau, less the share of the viscous mode; tau = 0.4 ms: omega = 2 / l sqrt(G / rho)
   CHECK(stiffness(pvp(1000, 1, 1e-6)).fastest_rate == Approx(2.5e6).epsilon(0.15));

@@ -161,6 +161,16 @@ std::pair<double, double> steady_jet(double v, double f, double x) {
 
 }  // namespace
 
+TEST_CASE("A jet fed by flow begins with its bead held, which is nothing placed, and one by pull without") {
+  Run<3> by_flow(example("pvp", {"feed flow", "flow rate 60 mL/h"})), by_pull(example("pvp"));
+  CHECK(by_flow.scene.jet.held);
+  CHECK_FALSE(by_pull.scene.jet.held);
+  const Effort effort =
+      by_flow.to(0.5 * scales(by_flow.parameters).l_step / inlet_velocity(by_flow.parameters));
+  CHECK(effort.placed == 0);
+  CHECK(effort.released == 0);
+}
+
 TEST_CASE("A release by flow changes neither mass, charge, volume, momentum nor dipole, late or not") {
   const Nozzle<3> nozzle(fed());
   for (double V : {2.0, 2.2}) {
