@@ -27,10 +27,18 @@ void Archive::block(void* data, std::size_t size) {
   at_ += size;
 }
 
+void Archive::truth(bool& value) {
+  unsigned char byte = value ? 1 : 0;
+  block(&byte, sizeof byte);
+  if (byte > 1) other_layout();
+  value = byte == 1;
+}
+
 std::size_t Archive::counted(std::size_t count, std::size_t size) {
   block(&count, sizeof count);
-  // a count that cannot be true must not become an allocation
-  if (reading() && size > 0 && count > (source_->size() - at_) / size) other_layout();
+  // a count that cannot be true must not become an allocation, nor rows of no columns
+  const std::size_t most = !reading() ? count : size > 0 ? (source_->size() - at_) / size : source_->size();
+  if (count > most) other_layout();
   return count;
 }
 

@@ -43,6 +43,8 @@ class Archive {
 
  private:
   void block(void* data, std::size_t size);
+  /// A byte that is neither 0 nor 1 must not become a bool.
+  void truth(bool& value);
   /// The number of elements of `size` bytes each that follow; when writing, `count`.
   std::size_t counted(std::size_t count, std::size_t size);
   /// The number of columns of a table that follows; when writing, `count`.
@@ -61,6 +63,8 @@ class Archive {
       block(value.data(), static_cast<std::size_t>(value.rows()) * row);
     } else if constexpr (requires { value.visit(*this); }) {
       value.visit(*this);
+    } else if constexpr (std::is_same_v<T, bool>) {
+      truth(value);
     } else {
       static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>,
                     "a class with more than plain members needs a visit");
@@ -79,7 +83,7 @@ class Archive {
       values.resize(counted(values.size(), sizeof(T)));
       block(values.data(), values.size() * sizeof(T));
     } else {
-      values.resize(counted(values.size(), 1));
+      values.resize(counted(values.size(), sizeof(std::size_t)));  // that of each piece stands in front of it
       for (T& value : values) one(value);
     }
   }

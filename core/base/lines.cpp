@@ -89,4 +89,13 @@ std::string utf8(std::string_view text) {
   return encoded;
 }
 
+std::string printable(std::string text) {
+  const auto at = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if ((at(i) < ' ' && text[i] != '\n' && text[i] != '\t') || at(i) == 0x7F) text[i] = '?';
+    if (i > 0 && at(i - 1) == 0xC2 && at(i) >= 0x80 && at(i) < 0xA0) text[i - 1] = text[i] = '?';  // in UTF-8
+  }
+  return text;
+}
+
 }  // namespace treejet

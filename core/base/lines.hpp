@@ -25,4 +25,8 @@ std::string for_shell(const std::string& text);
 /// character. Text of users goes through here before it goes into a file.
 std::string utf8(std::string_view text);
 
+/// The text fit for a terminal, which must not take it for commands: with ? for control characters other than
+/// line ends and tabs. What files and their names say goes through here before it is shown.
+std::string printable(std::string text);
+
 }  // namespace treejet

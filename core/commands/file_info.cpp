@@ -179,13 +179,6 @@ std::string text_file(const fs::path& path) {
   throw FileError(fmt::format("{}: no file that treejet has written", path.string()));
 }
 
-/// What a file says goes to a terminal, which must not take it for commands.
-std::string printable(std::string text) {
-  for (char& c : text)
-    if ((static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t') || c == 127) c = '?';
-  return text;
-}
-
 }  // namespace
 
 std::string file_info(const fs::path& path) {

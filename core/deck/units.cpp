@@ -180,7 +180,8 @@ class UnitReader {
     const bool marked = taken("**") || taken("^");
     int value = 1;
     const auto [end, failure] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
-    if (failure == std::errc::result_out_of_range || value == 0 || std::abs(value) > highest_power)
+    if (failure == std::errc::result_out_of_range || value == 0 || value < -highest_power ||
+        value > highest_power)
       return std::nullopt;
     if (failure != std::errc()) return marked ? std::nullopt : std::optional(1);
     rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));

@@ -252,7 +252,8 @@ std::string read(const Directive& d, Arguments a, int& target) {
 
 std::string read(const Directive& d, Arguments arguments, std::string& target) {
   if (arguments.empty()) return expected(d) + found(arguments);
-  if (arguments.size() > 1) return trailing(arguments);
+  if (arguments.size() > 1)
+    return fmt::format("expected nothing after {}, {}", quoted(arguments[0]), found(arguments.subspan(1)));
   target = arguments[0];
   return {};
 }

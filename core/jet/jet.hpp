@@ -94,6 +94,14 @@ void number_beads(Jet<D>& jet) {
   jet.id = IdColumn::LinSpaced(jet.size(), jet.removed + 1, jet.born);
 }
 
+/// Every bead has its constants, and all have an id or none: so it is, unless a file says otherwise.
+template <int D>
+bool complete(const Jet<D>& jet) {
+  const Eigen::Index n = jet.size();
+  return jet.mass.size() == n && jet.charge.size() == n && jet.volume.size() == n &&
+         (jet.id.size() == n || jet.id.size() == 0) && jet.removed >= 0;
+}
+
 /// The beads of a jet at another moment, without a slope.
 template <int D>
 Jet<D> at(const Jet<D>& jet, double t, const State<D>& y) {

@@ -76,6 +76,10 @@ template <int D>
 Jet<D> rescaled(const Origin& o, const Parameters& p, const Columns& added) {
   Jet<D> jet;
   o.checkpoint->state.beginning_of_part("march", jet);
+  std::vector<SavedColumn> saved;
+  if (o.checkpoint->state.has(columns_part)) o.checkpoint->state.beginning_of_part(columns_part, saved);
+  if (!complete(jet) || jet.y.cols() != own_columns<D> + std::ssize(saved))
+    refuse(o, "its beads lack constants or columns");
   const Parameters& before = o.deck.parameters;
   const Scales from = scales(before), to = scales(p);
   jet.t *= from.time / to.time;
@@ -87,8 +91,6 @@ Jet<D> rescaled(const Origin& o, const Parameters& p, const Columns& added) {
   jet.volume *= (from.mass / before.density_mass) / (to.mass / p.density_mass);
   jet.held = jet.held && p.inserting;
   if (!p.refinement) jet.id.resize(0);
-  std::vector<SavedColumn> saved;
-  if (o.checkpoint->state.has(columns_part)) o.checkpoint->state.beginning_of_part(columns_part, saved);
   const State<D> all = jet.y;
   jet.y.resize(all.rows(), own_columns<D> + static_cast<Eigen::Index>(added.size()));
   jet.y.leftCols(own_columns<D>) = all.leftCols(own_columns<D>);
@@ -109,6 +111,9 @@ Jet<D> of_frame(const Origin& o, const Parameters& p, const Columns& added) {
   const Frame& f = o.frame;
   const auto &position = f.columns[0], &velocity = f.columns[1], &stress = f.columns[2],
              &charge = f.columns[3], &mass = f.columns[4], &radius = f.columns[5];
+  const auto is_none = [](std::int64_t id) { return id < 1; };
+  if (f.points() == 0 || std::any_of(f.id.begin(), f.id.end() - 1, is_none))
+    refuse(o, "its points are not numbered as beads and a nozzle are");
   Jet<D> jet;
   const auto beads = static_cast<Eigen::Index>(f.points()) - 1;
   jet.t = f.time / s.time;

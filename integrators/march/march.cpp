@@ -215,10 +215,8 @@ void March<D>::visit(Archive& state) {
   state(parts_.motion, parts_.control, forecast_, effort_, under_way_);
   if (!state.reading()) return;
   const auto n = jet_.size();
-  const bool alike = jet_.mass.size() == n && jet_.charge.size() == n && jet_.volume.size() == n &&
-                     (jet_.id.size() == n || jet_.id.size() == 0) && jet_.y.cols() == columns &&
-                     (jet_.slope.rows() == n || !under_way_) && (jet_.slope.cols() == columns || !under_way_);
-  if (!alike || jet_.removed < 0)
+  const bool has_slopes = jet_.slope.rows() == n && jet_.slope.cols() == columns;
+  if (!complete(jet_) || jet_.y.cols() != columns || (under_way_ && !has_slopes))
     throw FileError("the checkpoint's jet has beads without a mass, a charge, a volume or a velocity");
 }
 

@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "core/base/error.hpp"
+#include "core/base/lines.hpp"
 #include "core/commands/command_line.hpp"
 #include "core/commands/companions.hpp"
 #include "core/commands/convert.hpp"
@@ -88,7 +89,7 @@ int front_door(int argc, char** argv, const OwnPhysics& own) {
   std::signal(SIGXFSZ, SIG_IGN);  // the failed write tells, by name of the file
   Ranks ranks;
   const auto fail = [&](int exit_code, const char* what) {
-    return ranks.fail(exit_code, fmt::format("treejet: {}\n", what));
+    return ranks.fail(exit_code, fmt::format("treejet: {}\n", printable(what)));
   };
   try {
     hand_over_to_companion(argc, argv);

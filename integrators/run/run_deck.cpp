@@ -204,7 +204,7 @@ int resume(const Arguments& a, const Ranks& ranks, const OwnPhysics& own) {
   Resumption found = resumption(a.resume, version_text(own),
                                 with_deck ? std::vector<std::string>() : a.overrides, readers(ranks));
   if (ranks.first())
-    for (const auto& w : found.warnings) fmt::print(stderr, "treejet: warning: {}\n", w);
+    for (const auto& w : found.warnings) fmt::print(stderr, "treejet: warning: {}\n", printable(w));
   if (with_deck) expect_same(read_deck(a.deck, a.overrides), found.deck);
   if (completed && !found.extended) return already_at_its_end(a, ranks);
   const auto changes = found.extended ? a.overrides : std::vector<std::string>();

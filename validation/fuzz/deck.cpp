@@ -1,33 +1,23 @@
-/// Feeds arbitrary text to the deck reader (libFuzzer; CMake option TREEJET_FUZZ, clang). A deck is read, or
-/// refused with an InputError whose message is printable; anything else is a crash. A deck that is read must
-/// spell out to a deck that reads the same. Lines at the start that begin with "--set " are overrides.
-///
-///     cmake -S . -B fuzz -DTREEJET_FUZZ=ON -DCMAKE_CXX_COMPILER=clang++ && cmake --build fuzz
-///     fuzz/fuzz-deck --dictionary > fuzz/deck.dict
-///     mkdir -p fuzz/corpus && cp validation/decks/*.dat fuzz/corpus
-///     fuzz/fuzz-deck -dict=fuzz/deck.dict -timeout=5 -max_total_time=600 fuzz/corpus
+/// Decks: one that is read must spell out to a deck that reads the same. Lines at the start that begin with
+/// "--set " are overrides. The messages of a deck are ASCII.
 
 #include <fmt/format.h>
 
-#include <cstdint>
-#include <cstdio>
-#include <cstdlib>
+#include <algorithm>
+#include <filesystem>
 
 #include "core/base/error.hpp"
 #include "core/deck/deck.hpp"
 #include "core/deck/directives.hpp"
 #include "core/deck/foreign.hpp"
 #include "core/deck/observable_keys.hpp"
+#include "core/io/atomic_file.hpp"
+#include "validation/fuzz/target.hpp"
+#include "validation/support/installation.hpp"
 
-using namespace treejet;
+namespace treejet::fuzz {
 
 namespace {
-
-void demand(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "violated: %s\n", what);
-  std::abort();
-}
 
 /// The parameters as a deck.
 std::string spelled_out(const Parameters& p) {
@@ -40,30 +30,37 @@ std::string spelled_out(const Parameters& p) {
   return text + "finish\n";
 }
 
-void print_dictionary() {
-  for (const Directive& d : directives()) {
-    std::printf("\"%s \"\n\"%s\"\n", std::string(d.words).c_str(), argument(d).c_str());
-    if (!d.example.empty()) std::printf("\"%s\"\n", std::string(d.example).c_str());
-  }
-  for (const Foreign& f : foreign_directives()) std::printf("\"%s \"\n", std::string(f.words).c_str());
-  for (const ObservableKey& k : observable_keys) std::printf("\" %s\"\n", std::string(k.key).c_str());
-  for (const char* piece :
-       {"finish", "--set ", "\\x0d\\x0a", " # ", "1.d-8", "yes", "no", "nan", "1.d400", "0.02.d0"})
-    std::printf("\"%s\"\n", piece);
-}
-
 }  // namespace
 
-extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
-  if (*argc == 2 && std::string_view((*argv)[1]) == "--dictionary") {
-    print_dictionary();
-    std::exit(0);
+std::string dictionary_of_decks() {
+  std::string text;
+  for (const Directive& d : directives()) {
+    text += fmt::format("\"{} \"\n\"{}\"\n", d.words, argument(d));
+    if (!d.example.empty()) text += fmt::format("\"{}\"\n", d.example);
   }
-  return 0;
+  for (const Foreign& f : foreign_directives()) text += fmt::format("\"{} \"\n", f.words);
+  for (const ObservableKey& k : observable_keys) text += fmt::format("\" {}\"\n", k.key);
+  for (const char* piece :
+       {"finish", "--set ", "\\x0d\\x0a", " # ", "1.d-8", "yes", "no", "nan", "1.d400", "0.02.d0"})
+    text += fmt::format("\"{}\"\n", piece);
+  return text;
 }
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  std::string text(reinterpret_cast<const char*>(data), size);
+std::vector<std::string> decks() {
+  std::vector<std::filesystem::path> files;
+  const std::filesystem::path tree = source_tree();
+  for (const auto& example : std::filesystem::directory_iterator(tree / "examples"))
+    if (exists(example.path() / "input.dat")) files.push_back(example.path() / "input.dat");
+  for (const auto& deck : std::filesystem::directory_iterator(tree / "validation" / "decks"))
+    if (deck.path().extension() == ".dat") files.push_back(deck.path());
+  std::sort(files.begin(), files.end());
+  std::vector<std::string> texts{"--set tolerance 1.d-5\n--set viscosity 2 Pa s\n" + deck_template()};
+  for (const auto& file : files) texts.push_back(read_whole(file));
+  return texts;
+}
+
+void feed_deck(std::string_view bytes) {
+  std::string text(bytes);
   std::vector<std::string> overrides;
   for (constexpr std::string_view set = "--set "; text.starts_with(set);) {
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -80,5 +77,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     demand(!message.empty(), "an error has a message");
     for (const char c : message) demand(c == '\n' || (c >= ' ' && c <= '~'), "a message is printable");
   }
-  return 0;
 }
+
+}  // namespace treejet::fuzz

@@ -376,6 +376,16 @@ TEST_CASE("A comment in Latin-1 is kept in UTF-8, which all files are written in
   CHECK(parse_deck(deck.text, name, deck.overrides).text == deck.text);  // a resumed run reads the same
 }
 
+TEST_CASE(
+    "What is shown on a terminal commands none: control characters, those of UTF-8 too, are question marks",
+    "[deck]") {
+  CHECK(printable("a\tb\n\xc3\xa4\xe2\x88\x92~") == "a\tb\n\xc3\xa4\xe2\x88\x92~");
+  CHECK(printable("\x1b[2J\x07\r\x7f") == "?[2J???");
+  CHECK(printable("\xc2\x9b"
+                  "2J") == "??2J");  // U+009B opens a command as ESC [ does
+  CHECK(printable(std::string(1, '\0')) == "?");
+}
+
 TEST_CASE("UTF-8 stays as it is, anything else is read as Latin-1", "[deck]") {
   for (const char* valid :
        {"", "plain", "\xc3\xa4", "\xe2\x88\x92", "\xf0\x9f\x8c\x80", "\xef\xbf\xbd", "\xf4\x8f\xbf\xbf"})

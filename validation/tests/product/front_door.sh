@@ -251,6 +251,9 @@ grep -q '^the jet has left at t = 0.0182' out || fail "the summary does not tell
 grep -q '^ *0 *-$' out || fail "the terminal shows no dash for a window without arrivals"
 is "beads in all rows together" "$(awk '!/^#/ {sum += $3; if ($4 > q) q = $4} END {print sum / q}' early/statdat.dat)" 5
 
+expect 4 "a file whose name commands terminals" "$treejet" info "$(printf 'a\033[2Jb')"
+grep -q "a?\[2Jb: " err || fail "a message hands a name to the terminal as it is: $(cat -v err)"
+
 expect 0 "check" "$treejet" check "$pvp"
 grep -q 'surface tension' out || fail "check does not tell what is composed"
 is "files left by check" "$(ls | grep -c statdat)" 0
