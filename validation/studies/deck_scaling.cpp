@@ -124,6 +124,7 @@ void write_table(const std::vector<Turns>& all, Report& report) {
   std::vector<std::string> names = {"workers", "kind", "ranks", "threads", "beads", "steps", "evaluations"};
   names.insert(names.end(), columns().begin(), columns().end());
   names.emplace_back("cores");
+  names.emplace_back("Coulomb sum");
   auto table = report.table("scaling_deck", "Time of an evaluation, and where it goes", names);
   for (const Turns& of : all) {
     const RankLayout& layout = of.team.layout;
@@ -138,6 +139,7 @@ void write_table(const std::vector<Turns>& all, Report& report) {
     const Row r = row(of, all.front());
     for (const std::string& name : columns()) cells.push_back(r.at(name));
     cells.push_back(m.cores);
+    cells.push_back(m.sum);
     table.row(cells);
   }
 }
@@ -178,6 +180,10 @@ void write_text(const DeckScaling& asked, const std::vector<Turns>& all, int cor
     for (const std::string& name : shown) text += fmt::format(" {} |", digits(r.at(name)));
     text += "\n";
   }
+  for (const Turns& of : all)  // it chooses among fewer shapes: a speedup has that in it
+    if (const std::string& sum = of.median().sum; sum != serial.sum)
+      text += fmt::format("\n{} {} x {}: Coulomb sum by {}.\n", of.team.name(), of.team.layout.ranks,
+                          of.team.layout.threads, sum);
   std::ofstream out(file);
   out << text;
   if (!out) throw FileError(file.string() + ": cannot be written");
