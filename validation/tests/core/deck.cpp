@@ -368,6 +368,28 @@ TEST_CASE("A bare number that is absurd in its unit gets a note with the unit th
   }
 }
 
+TEST_CASE("Numbers are in the units that a deck names, before and behind its line", "[deck]") {
+  const std::vector<std::string> numbers = {"density charge 0.0147", "external potential 9000"};
+  std::vector<std::string> before = numbers, behind = numbers;
+  before.insert(before.begin(), "units real");
+  behind.push_back("units real");
+  const Parameters a = parse_deck(sound_deck, name, before).parameters,
+                   b = parse_deck(sound_deck, name, behind).parameters;
+  CHECK(differences(a, b).empty());
+  CHECK(scales(a).charge == scales(b).charge);
+  std::string last = altered("", "units real");
+  CHECK(scales(parse_deck(last, name, numbers).parameters).charge == scales(a).charge);
+}
+
+TEST_CASE("A field turns at most a thousand million times in a run", "[deck]") {
+  const auto wave = [](const char* frequency) {
+    return message(sound_deck,
+                   {"field wave square", std::string("field frequency ") + frequency, "final time 1."});
+  };
+  CHECK_THAT(wave("5.1d8 Hz"), Catch::Contains("expected at most 5e+08 Hz: at most 1e+09 half periods"));
+  CHECK_THAT(wave("4.9d8 Hz"), !Catch::Contains("half periods"));
+}
+
 TEST_CASE("A comment in Latin-1 is kept in UTF-8, which all files are written in", "[deck]") {
   const std::string latin = altered("viscosity 20.", "viscosity 20. ! Viskosit\xe4t");
   const Deck deck = parse_deck(latin, name, {"gravity yes # \xe9t\xe9"});

@@ -104,6 +104,19 @@ TEST_CASE("A trajectory read back is the one written, to the bit, and tells what
   CHECK(description(file.content().made_by) == description(content.made_by));
 }
 
+TEST_CASE("Each frame that ParaView is told of is its own rows of the datasets") {
+  Xdmf xdmf;
+  xdmf.add({0.5, 3});
+  xdmf.add({0.75, 2});
+  const std::string text = xdmf.text("traj.h5", 3, frame_columns());
+  // first row, strides and size of the selections of position and stress, frame by frame
+  CHECK_THAT(text, Catch::Contains("\">0 0 0 1 1 1 1 3 3</DataItem>") &&
+                       Catch::Contains("\">0 0 1 1 1 3</DataItem>"));
+  CHECK_THAT(text, Catch::Contains("\">1 0 0 1 1 1 1 2 3</DataItem>") &&
+                       Catch::Contains("\">1 0 1 1 1 2</DataItem>"));
+  CHECK_THAT(text, Catch::Contains("frame 1\">\n<Time Value=\"0.75\"/>"));
+}
+
 TEST_CASE("The bytes of a finished trajectory do not depend on how often it was flushed") {
   const Place place;
   const std::string expected = written_at_once(place.path / "once" / "traj.h5");

@@ -1,5 +1,5 @@
 /// What files and decks may hold, but nobody writes: each the smallest input of a fault that a fuzzer, or a
-/// look at a reader for one, has found.
+/// look at a reader for one, has found; and what is taken of a state that is sound.
 
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
@@ -9,6 +9,7 @@
 #include "core/deck/directives.hpp"
 #include "core/deck/units.hpp"
 #include "core/io/h5md_trajectory.hpp"
+#include "core/jet/scales.hpp"
 #include "core/restart/origin.hpp"
 #include "validation/support/example.hpp"
 #include "validation/support/scratch_directory.hpp"
@@ -101,6 +102,27 @@ TEST_CASE("A run does not begin with a checkpoint whose beads lack a mass, an id
   CHECK_THROWS_AS(jet_of_a_checkpoint(checkpoint_of(place.path / "column", with_a_column)), InputError);
 }
 
+TEST_CASE("Beads that a run begins with are in CGS what they were, whatever the scales of its deck") {
+  const Place place;
+  Jet<3> jet;
+  append(jet, Bead<3>({1, 0, 0}, {1, 0, 0}, 0.3, 2, 3));
+  jet.volume[0] = 1.5;
+  const auto file = checkpoint_of(place.path, jet);
+  const Parameters before = example("pvp");
+  const Parameters after = example("pvp", {"elastic modulus 90000.", "viscosity 7.", "nozzle cross 6.d-3",
+                                           "density mass 1.1", "density charge 30000."});
+  const Scales from = scales(before), to = scales(after);
+  const Jet<3> begun = jet_of<3>(origin(file.string()), after);
+  constexpr double rounding = 1e-14;  // a quotient and two products
+  CHECK(begun.y(0, 0) * to.length == Approx(from.length).epsilon(rounding));
+  CHECK(begun.y(0, velocity_column<3>) * to.velocity == Approx(from.velocity).epsilon(rounding));
+  CHECK(begun.y(0, stress_column<3>) * to.stress == Approx(0.3 * from.stress).epsilon(rounding));
+  CHECK(begun.mass[0] * to.mass == Approx(2 * from.mass).epsilon(rounding));
+  CHECK(begun.charge[0] * to.charge == Approx(3 * from.charge).epsilon(rounding));
+  CHECK(begun.volume[0] * to.mass / after.density_mass ==
+        Approx(1.5 * from.mass / before.density_mass).epsilon(rounding));
+}
+
 TEST_CASE("A run does not begin with a frame without points, or with beads of no number") {
   const Place place;
   const auto begun = [&](const char* name, const std::vector<std::int64_t>& ids) {
@@ -111,8 +133,10 @@ TEST_CASE("A run does not begin with a frame without points, or with beads of no
   CHECK_THROWS_AS(begun("lowest", {std::numeric_limits<std::int64_t>::min(), 0}), InputError);
 }
 
-TEST_CASE("The lowest power there is makes no unit") {
+TEST_CASE("Powers beyond nine make no unit, the lowest that there is among them") {
   CHECK_FALSE(unit("m-2147483648"));
+  CHECK_FALSE(unit("m-10"));
+  CHECK_FALSE(unit("m10"));
   CHECK(unit("m-9"));
 }
 

@@ -34,6 +34,21 @@ TEST_CASE("Six beads with a reach of two feel the two on either side, and no oth
   }
 }
 
+TEST_CASE("A reach of any length leaves out the pairs beyond it, those of more than half the jet, too") {
+  for (const int reach : {1, 3, 4, 5}) {
+    double E[6];
+    DirectSum<1> sum(reach);
+    sum.field({{x}, q, 6}, {0, 6}, {E}, {1});
+    for (int i = 0; i < 6; ++i) {
+      CAPTURE(reach, i);
+      double expected = 0;
+      for (int j = 0; j < 6; ++j)
+        if (j != i && std::abs(i - j) <= reach) expected += q[j] * (i > j ? 1 : -1) / ((i - j) * (i - j));
+      CHECK(E[i] == Approx(expected).epsilon(1e-15));  // a few roundings
+    }
+  }
+}
+
 TEST_CASE("A cutoff of one and a half intervals of beads reaches two of them") {
   // the beads of a new jet stand an interval apart, unit charges: 1 and 1/4 from either side
   Parameters p = read_deck(TREEJET_SOURCE_DIR "/validation/decks/stream.dat", {"points 6", "tolerance 1.d-6"})

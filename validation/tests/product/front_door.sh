@@ -254,6 +254,9 @@ is "beads in all rows together" "$(awk '!/^#/ {sum += $3; if ($4 > q) q = $4} EN
 expect 4 "a file whose name commands terminals" "$treejet" info "$(printf 'a\033[2Jb')"
 grep -q "a?\[2Jb: " err || fail "a message hands a name to the terminal as it is: $(cat -v err)"
 
+expect 0 "a run whose traj.xyz is too small" "$treejet" run "$pvp" --out few --set "points 5" --set "initial length 0.1" --set "final time 1.d-4" --set "print xyz 5.d-5" --set "print xyz maxnum 3"
+grep -q '^traj.xyz leaves out the beads nearest to the nozzle: .* points, print xyz maxnum 3' out || fail "nobody is told that beads are left out: $(cat out)"
+
 expect 0 "check" "$treejet" check "$pvp"
 grep -q 'surface tension' out || fail "check does not tell what is composed"
 is "files left by check" "$(ls | grep -c statdat)" 0

@@ -77,6 +77,9 @@ def h5py(directory):
     assert b"print hdf5" in t.file["parameters/overrides"][()]
     x = t.file["observables/x"]
     assert x["value"].attrs["unit"] == "cm" and list(x["step"]) == list(range(len(x["value"])))
+    words = {key: o["value"].attrs["unit"] for key, o in t.file["observables"].items() if "unit" in o["value"].attrs}
+    assert not any(mark in unit for unit in words.values() for mark in "/()^"), words  # H5MD's are factors with powers
+    assert any("-1" in unit for unit in words.values()), "no observable of this run has a unit with a negative power"
     rows = np.loadtxt(directory + "/statdat.dat")
     assert np.array_equal(rows[:, 0], x["time"]) and np.array_equal(rows[:, 1], x["value"])
 
