@@ -369,7 +369,7 @@ TEST_CASE("A bare number that is absurd in its unit gets a note with the unit th
 }
 
 TEST_CASE("Numbers are in the units that a deck names, before and behind its line", "[deck]") {
-  const std::vector<std::string> numbers = {"density charge 0.0147", "external potential 9000"};
+  const std::vector<std::string> numbers = {"density charge 14.7 mC/L", "external potential 9 kV"};
   std::vector<std::string> before = numbers, behind = numbers;
   before.insert(before.begin(), "units real");
   behind.push_back("units real");
