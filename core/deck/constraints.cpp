@@ -459,10 +459,6 @@ class Relations {
           "expected coulomb expansions local");
     error(p_.integrator == Scheme::sra1, {"parallel", "integrator"},
           "expected another integrator than sra1, which draws for all beads of the jet");
-    if (composable())
-      error(properties(chosen_scheme(p_)).implicit, {"parallel", "integrator"},
-            "expected an explicit integrator, or parallel replicated: the local terms of a chain in "
-            "subdomains are not solved for");
   }
 
   const Given* find(std::string_view words) const { return treejet::find(given_, directive(words)); }

@@ -15,10 +15,13 @@
 ///
 /// so the Jacobian is block tridiagonal. What couples a bead to its own velocity only (drag) is the last
 /// block; without such a term there are none. Other added columns are not solved for. Scaled.
+///
+/// Of a chain in subdomains the rows are those of `subdomain`; in that of a neighbour what depends on its
+/// other neighbour is not right.
 
 #include <vector>
 
-#include "core/jet/jet.hpp"
+#include "core/jet/subdomain_rows.hpp"
 
 namespace treejet {
 
@@ -42,7 +45,8 @@ struct LocalJacobian {
   std::vector<ElementJacobian<D>> element;
   std::vector<Eigen::Matrix<double, D, D>> acceleration_by_v;  ///< a block a bead, or none
   Eigen::ArrayXd inverse_mass;
-  bool law_column = false;  ///< the law keeps one
+  bool law_column = false;                      ///< the law keeps one
+  const SubdomainRows<D>* subdomain = nullptr;  ///< null: the rows are the whole chain
 
   /// The blocks by velocity, of n beads, for a term that adds to them.
   std::vector<Eigen::Matrix<double, D, D>>& by_velocity() {

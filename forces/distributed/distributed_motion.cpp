@@ -5,16 +5,8 @@
 namespace treejet {
 
 namespace {
-
-/// What a neighbour has to know of a bead: its state, mass, charge and volume.
-std::vector<double> message(const Jet<3>& jet, const State<3>& y, int i) {
-  const Eigen::Array<double, 1, Eigen::Dynamic> values = y.row(i);
-  std::vector<double> all(values.data(), values.data() + values.size());
-  all.insert(all.end(), {jet.mass[i], jet.charge[i], jet.volume[i]});
-  return all;
+constexpr auto constants = {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume};
 }
-
-}  // namespace
 
 void DistributedMotion::operator()(const Jet<3>& jet, double t, const State<3>& y, State<3>& slope) {
   const Working at(Work::local);
@@ -39,36 +31,63 @@ void DistributedMotion::set_last_evaluation(const Jet<3>& jet, double t, const S
   field_of_rows_ = field;
 }
 
-/// The own beads and, from the ranks next along the chain, one on either side.
+void DistributedMotion::differentiate(const Jet<3>& jet, double t, const State<3>& y, LocalJacobian<3>& J) {
+  extend(jet, y);
+  local_.differentiate(extended_, t, extended_.y, J);
+  J.subdomain = this;
+}
+
+/// The own beads and, from the ranks next along the chain, one on either side: state, mass, charge, volume.
 void DistributedMotion::extend(const Jet<3>& jet, const State<3>& y) {
   const Rows own = subdomains_.own();
-  const int older = subdomains_.older(), younger = subdomains_.younger();
-  Ranks::Messages messages(index(subdomains_.ranks().size()));
-  if (older >= 0) messages[index(older)] = message(jet, y, own.first);
-  if (younger >= 0) messages[index(younger)] = message(jet, y, own.last - 1);
-  const Ranks::Messages received = subdomains_.ranks().exchange(messages);
+  State<3> beads(own.size(), y.cols() + Eigen::Index{constants.size()});
+  beads.leftCols(y.cols()) = y.middleRows(own.first, own.size());
+  Eigen::Index column = y.cols();
+  for (auto each : constants) beads.col(column++) = (jet.*each).segment(own.first, own.size());
+  beads = between_neighbours(beads);
 
-  first_ = older >= 0 ? 1 : 0;
-  const int n = first_ + own.size() + (younger >= 0 ? 1 : 0);
-  extended_.y.resize(n, y.cols());
-  extended_.y.middleRows(first_, own.size()) = y.middleRows(own.first, own.size());
-  for (auto constants : {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume}) {
-    (extended_.*constants).resize(n);
-    (extended_.*constants).segment(first_, own.size()) = (jet.*constants).segment(own.first, own.size());
-  }
+  first_ = subdomains_.older() >= 0 ? 1 : 0;
+  extended_.y = beads.leftCols(y.cols());
+  column = y.cols();
+  for (auto each : constants) extended_.*each = beads.col(column++);
   extended_.removed = subdomains_.before(jet) + own.first - first_;
   extended_.held = jet.held && subdomains_.has_youngest();
   extended_.last_release = jet.last_release;
-  const auto take_in = [&](int rank, int at) {
-    if (rank < 0) return;
-    const double* from = received[index(rank)].data();
-    extended_.y.row(at) = Eigen::Map<const Eigen::Array<double, 1, Eigen::Dynamic>>(from, y.cols());
-    from += y.cols();
-    for (auto constants : {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume})
-      (extended_.*constants)[at] = *from++;
+}
+
+State<3> DistributedMotion::between_neighbours(const State<3>& own) const {
+  const int older = subdomains_.older(), younger = subdomains_.younger();
+  const auto row = [&own](Eigen::Index i) {
+    const Eigen::Array<double, 1, Eigen::Dynamic> values = own.row(i);
+    return std::vector<double>(values.data(), values.data() + values.size());
+  };
+  Ranks::Messages messages(index(subdomains_.ranks().size()));
+  if (older >= 0) messages[index(older)] = row(0);
+  if (younger >= 0) messages[index(younger)] = row(own.rows() - 1);
+  const Ranks::Messages received = subdomains_.ranks().exchange(messages);
+
+  const Eigen::Index first = older >= 0 ? 1 : 0, n = first + own.rows() + (younger >= 0 ? 1 : 0);
+  State<3> all(n, own.cols());
+  all.middleRows(first, own.rows()) = own;
+  const auto take_in = [&](int rank, Eigen::Index at) {
+    if (rank >= 0)
+      all.row(at) =
+          Eigen::Map<const Eigen::Array<double, 1, Eigen::Dynamic>>(received[index(rank)].data(), own.cols());
   };
   take_in(older, 0);
   take_in(younger, n - 1);
+  return all;
+}
+
+State<3> DistributedMotion::with_neighbours(const State<3>& table) const {
+  const Rows own = subdomains_.own();
+  return between_neighbours(table.middleRows(own.first, own.size()));
+}
+
+void DistributedMotion::put_back(const State<3>& rows, State<3>& table) const {
+  const Rows own = subdomains_.own();
+  table.middleRows(own.first, own.size()) = rows.middleRows(first_, own.size());
+  subdomains_.share_ends(table);
 }
 
 /// The Coulomb force.

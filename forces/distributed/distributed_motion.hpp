@@ -4,7 +4,8 @@
 /// The local terms see the own beads with one neighbour on either side, which the ranks next along the chain
 /// send at each evaluation; the Coulomb field is that of CoulombSolver, the held bead and the nozzle
 /// belonging to the subdomain that ends there. The slopes of the oldest and the youngest bead go from their
-/// ranks to all, so that their copies stay the same bits.
+/// ranks to all, so that their copies stay the same bits. A scheme that solves for the local terms finds here
+/// how the subdomains hang together (core/jet/subdomain_rows.hpp).
 
 #include <optional>
 
@@ -14,7 +15,7 @@
 
 namespace treejet {
 
-class DistributedMotion final : public FullMotion<3> {
+class DistributedMotion final : public FullMotion<3>, private SubdomainRows<3> {
  public:
   /// `local` has no Coulomb term; it and `subdomains` outlive this.
   DistributedMotion(EquationsOfMotion<3>& local, const ChainDecomposition& subdomains, Threads threads)
@@ -36,6 +37,7 @@ class DistributedMotion final : public FullMotion<3> {
   void be_continued() { continued_ = true; }
 
   void operator()(const Jet<3>& jet, double t, const State<3>& y, State<3>& slope) override;
+  void differentiate(const Jet<3>& jet, double t, const State<3>& y, LocalJacobian<3>& J) override;
   const Chain<3>& chain() const override { return chain_; }
   const Chain<3>::Points& field() const override { return field_of_rows_; }
   std::pair<const Chain<3>*, Rows> own_elements() const override {
@@ -48,7 +50,19 @@ class DistributedMotion final : public FullMotion<3> {
   const FieldErrorReport* error() const { return solver_ ? &solver_->report().error : nullptr; }
 
  private:
+  std::pair<Eigen::Index, Eigen::Index> own() const override {
+    return {first_, first_ + subdomains_.own().size()};
+  }
+  State<3> with_neighbours(const State<3>& table) const override;
+  void put_back(const State<3>& rows, State<3>& table) const override;
+  int place() const override { return subdomains_.ranks().rank(); }
+  std::vector<double> of_all(std::span<const double> own) const override {
+    return subdomains_.ranks().of_all(own);
+  }
+
   void extend(const Jet<3>& jet, const State<3>& y);
+  /// A row of each neighbour around a table of the own beads.
+  State<3> between_neighbours(const State<3>& own) const;
   void repel(Rows own, State<3>& slope);
   void bind_youngest_field(int own);
   void set_last_evaluation(const Jet<3>& jet, double t, const State<3>& y);

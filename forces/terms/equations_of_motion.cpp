@@ -58,6 +58,7 @@ void EquationsOfMotion<D>::differentiate(const Jet<D>& jet, double t, const Stat
   amend({0, n});
   J.element.assign(static_cast<std::size_t>(n), {});
   J.acceleration_by_v.clear();
+  J.subdomain = nullptr;
   J.law_column = law_columns_ > 0;
   J.inverse_mass = chain_.inverse_mass;
   for (int i = 0; i < n; ++i) {

@@ -34,8 +34,9 @@ class BlockTridiagonal {
     }
   }
 
-  /// Turns g into u, after `factor`.
-  void solve(std::vector<Column>& g) const {
+  /// Turns g, of one column or more, into u, after `factor`.
+  template <class Columns>
+  void solve(std::vector<Columns>& g) const {
     for (std::size_t i = 0; i < row.size(); ++i) {
       if (i > 0) g[i].noalias() -= row[i].below * g[i - 1];
       g[i] = pivoted_[i].solve(g[i]).eval();

@@ -1,4 +1,4 @@
-/// Stiff chains: the block tridiagonal solver, the local Jacobian, the additive pair and the choice of it.
+/// Stiff chains: the local Jacobian, the additive pair and the choice of it.
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
@@ -18,7 +18,6 @@
 #include "forces/terms/viscoelastic.hpp"
 #include "forces/terms/viscous_tension.hpp"
 #include "integrators/schemes/additive.hpp"
-#include "integrators/schemes/block_tridiagonal.hpp"
 #include "integrators/schemes/chain_solver.hpp"
 #include "validation/support/run.hpp"
 #include "validation/support/scenes.hpp"
@@ -26,33 +25,6 @@
 using namespace treejet;
 
 namespace {
-
-template <int B>
-double block_error(int n, unsigned seed) {
-  std::srand(seed);  // of Eigen's Random
-  BlockTridiagonal<B> system;
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n * B, n * B);
-  Eigen::VectorXd g = Eigen::VectorXd::Random(n * B);
-  std::vector<Eigen::Matrix<double, B, 1>> u;
-  for (int i = 0; i < n; ++i) {
-    using Block = typename BlockTridiagonal<B>::Block;
-    // diagonal blocks dominate as blocks; inside, rows are reversed, which no elimination without pivots
-    // survives
-    const Block dominant = (Block::Random() + 2 * B * Block::Identity()).colwise().reverse();
-    system.row.push_back({Block::Random(), dominant, Block::Random()});
-    dense.block<B, B>(i * B, i * B) = dominant;
-    if (i > 0) dense.block<B, B>(i * B, (i - 1) * B) = system.row.back().below;
-    if (i + 1 < n) dense.block<B, B>(i * B, (i + 1) * B) = system.row.back().above;
-    u.push_back(g.segment<B>(i * B));
-  }
-  system.factor();
-  system.solve(u);
-  const Eigen::VectorXd expected = dense.partialPivLu().solve(g);
-  double worst = 0;
-  for (int i = 0; i < n; ++i)
-    worst = std::max(worst, (u[i] - expected.segment<B>(i * B)).cwiseAbs().maxCoeff());
-  return worst;
-}
 
 /// Beads down a crooked line, stretching and shearing, under stress; masses differ.
 template <int D>
@@ -149,16 +121,6 @@ Parameters pvp(double modulus, double viscosity, double tolerance, Scheme scheme
 }
 
 }  // namespace
-
-TEST_CASE("Block tridiagonal systems of any block size are solved as a dense solver does") {
-  for (int n : {1, 2, 3, 40}) {
-    CAPTURE(n);
-    // round-off; the blocks' condition is below 10
-    CHECK(block_error<1>(n, 1) < 1e-14);
-    CHECK(block_error<3>(n, 2) < 1e-14);
-    CHECK(block_error<7>(n, 3) < 1e-14);
-  }
-}
 
 TEST_CASE("The local Jacobian of Maxwell chains is the derivative of their slope") {
   check_jacobian<1>(std::make_unique<Maxwell<1>>());
