@@ -130,8 +130,8 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
   if (!files_.empty()) keep_record(setting);
   look_for_trouble(p, nozzle, collector);
   if (!setting.quiet) {
-    watchers_.push_back({"progress", std::make_unique<Progress<D>>(p.final_time / s.time, s.time,
-                                                                   stderr_is_interactive(), decomposition)});
+    watchers_.push_back({"", std::make_unique<Progress<D>>(p.final_time / s.time, s.time,
+                                                           stderr_is_interactive(), decomposition)});
   }
 }
 
@@ -240,8 +240,10 @@ void Outputs<D>::complete(RunResults results) {
 
 template <int D>
 void Outputs<D>::visit(CheckpointParts& state) {
-  for (auto& w : watchers_)
+  for (auto& w : watchers_) {
+    if (w.name.empty()) continue;
     contributes_ ? state.beginning_of_part(w.name, *w.watcher) : state.part(w.name, *w.watcher);
+  }
 }
 
 template class Outputs<1>;

@@ -76,7 +76,7 @@ class Outputs {
   void look_for_trouble(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector);
 
   struct Named {
-    std::string name;  ///< of the part of a checkpoint that tells its state
+    std::string name;  ///< of the part of a checkpoint that tells its state; empty: it remembers nothing
     std::unique_ptr<Observer<D>> watcher;
   };
 

@@ -119,7 +119,7 @@ for signal in TERM USR1 INT; do
   grep -q "SIG$signal.*treejet run --resume $signal" err || fail "the message does not tell how to go on: $(cat err)"
   expect 4 "starting over where a run was stopped" long --out $signal
   grep -q -- --resume err || fail "the message does not tell of --resume"
-  expect 0 "going on after $signal" "$treejet" run --resume $signal --quiet --threads 2
+  expect 0 "going on after $signal, no longer quiet" "$treejet" run --resume $signal --threads 2
   same $signal "a run stopped by $signal"
   is "files of a run stopped by $signal" "$(ls $signal | tr '\n' ' ')" "checkpoint.end run.json statdat.dat traj.xyz "
 done
