@@ -46,12 +46,16 @@ int repair_coincident(const PointCharges<3>& points, Rows rows, const FieldArray
   return coincident;
 }
 
-void require_finite(const Ranks& subdomains, Rows rows, const FieldArrays<3>& field) {
-  bool finite = true;
-  for (int i = rows.first; i < rows.last; ++i)
-    finite = finite && std::isfinite(field[0][i] + field[1][i] + field[2][i]);
-  if (subdomains.greatest(finite ? 0 : 1) > 0)
-    throw NumericalError("two points are at one place, or a coordinate is not finite");
+/// Of points whose coordinates all are.
+void require_finite(const Ranks& subdomains, const PointCharges<3>& points, Rows rows,
+                    const FieldArrays<3>& field) {
+  enum { fine, field_is_not, place_is_not } found = fine;
+  for (int i = 0; i < points.n; ++i)
+    if (!std::isfinite(points.r[0][i] + points.r[1][i] + points.r[2][i])) found = place_is_not;
+  for (int i = rows.first; i < rows.last && found == fine; ++i)
+    if (!std::isfinite(field[0][i] + field[1][i] + field[2][i])) found = field_is_not;
+  if (subdomains.greatest(static_cast<int>(found)) == field_is_not)
+    throw NumericalError("two points are at one place");
 }
 
 /// A direct sum of subdomains: all pairs are near whatever the order; the moments, which nobody asks for, are
@@ -98,7 +102,7 @@ void CoulombSolver::field(const PointCharges<3>& points, Rows rows, const FieldA
     report_.interactions = tree_.evaluate(tree_.leaves_of(rows), rows, field, threads, potential);
   }
   if (tree_.in_subdomains())
-    require_finite(ranks_.subdomains, rows, field);
+    require_finite(ranks_.subdomains, points, rows, field);
   else
     report_.coincident = repair_coincident(points, rows, field, potential);
 }

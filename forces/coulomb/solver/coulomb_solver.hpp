@@ -27,7 +27,8 @@
 /// Left out: near fields in single precision, Barnes-Hut, potentials.
 ///
 /// Two points at one place: the pair is left out of both fields, and counted in the report. In subdomains it
-/// is a NumericalError, on all ranks, as is a coordinate that is not finite.
+/// is a NumericalError, on all ranks. A coordinate that is not finite, as a step may try that is too long,
+/// leaves fields that are not.
 
 #include <optional>
 #include <string>

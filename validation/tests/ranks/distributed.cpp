@@ -236,6 +236,23 @@ TEST_CASE("A new cut of the chain is followed by a measurement, the same cut is 
   CHECK(samples_after(unequal_share(4000, ranks)) > chosen);
 }
 
+TEST_CASE("A place that is no number spoils the field of one evaluation, no more") {
+  const Ranks& ranks = started_ranks();
+  if (ranks.size() == 1) return;  // an undivided chain, where the point is left out and counted
+  const PointSet all = whipping_jet(3000);
+  const Rows rows = equal_share(all.size(), ranks);
+  PointSet own = subdomain(all, rows), spoilt = own;
+  if (ranks.rank() == ranks.size() - 1) spoilt.r[1].back() = std::nan("");
+  FieldSet field(own.size());
+  CoulombSolver solver = in_subdomains({.method = CoulombMethod::tree, .accuracy = 1e-4});
+  solver.field(own.view(), {0, own.size()}, field.view(), {1});
+  solver.field(spoilt.view(), {0, own.size()}, field.view(), {1});
+  const bool spoils = ranks.rank() < ranks.size() - 1 || !std::isfinite(field.e[0].back());
+  CHECK(ranks.greatest(spoils ? 0 : 1) == 0);
+  solver.field(own.view(), {0, own.size()}, field.view(), {1});
+  CHECK(error(all, rows, field, ranks) <= 1e-4);
+}
+
 TEST_CASE("Two points at one place are an error of all ranks that hold subdomains") {
   PointSet set = whipping_jet(3000);
   for (auto& r : set.r) r[2999] = r[0];
