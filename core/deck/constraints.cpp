@@ -9,6 +9,7 @@
 #include <span>
 
 #include "core/deck/observable_keys.hpp"
+#include "core/deck/subdomains.hpp"
 #include "core/jet/noise.hpp"
 #include "core/jet/scales.hpp"
 #include "core/jet/schemes.hpp"
@@ -160,7 +161,6 @@ class Relations {
           "expected no evaporation: the section would dry unevenly");
     error(p_.refinement, {"bending", "dynamic refinement"},
           "expected no dynamic refinement: moments are not split nor merged; shorter elements do instead");
-    error(p_.parallel == ParallelData::distributed, {"bending", "parallel"}, "expected parallel replicated");
     error(composable() && properties(chosen_scheme(p_)).implicit, {"bending", "integrator"},
           fmt::format("expected integrator verner6 or dopri5: kencarp5{} does not solve for moments",
                       p_.integrator == Scheme::automatic ? ", which auto takes for this scene," : ""));
@@ -179,8 +179,6 @@ class Relations {
           "to look");
     error(p_.cutoff.has_value(), {"dynamic refinement", "cutoff"},
           "expected no cutoff: its reach is a number of beads");
-    error(p_.parallel == ParallelData::distributed, {"dynamic refinement", "parallel"},
-          "expected parallel replicated: a jet in subdomains is not refined");
     note(p_.self_field == SelfField::point && p_.density_charge != 0, "dynamic refinement",
          "halving the elements of a chain of point charges changes the force on it; write self field "
          "slender for one that does not depend on them");
@@ -361,8 +359,6 @@ class Relations {
     law_without_extras("evaporation", law == StressLawKind::maxwell || law == StressLawKind::kelvin_voigt,
                        "stress law maxwell or kelvin-voigt", "how the others thicken is not modelled");
     error(p_.self_field == SelfField::slender, {"evaporation", "self field"}, "expected self field point");
-    error(p_.parallel == ParallelData::distributed, {"evaporation", "parallel"},
-          "expected parallel replicated");
     const bool other = p_.solvent != SolventName::water;
     for (const char* detail : {"evaporation solvent", "evaporation vapour density", "evaporation chi"})
       error(!by_vapour && is_given(detail), {detail, "evaporation model"},
@@ -449,16 +445,9 @@ class Relations {
     }
   }
 
-  /// What a jet in subdomains cannot do.
   void subdomains() {
-    if (p_.parallel == ParallelData::replicated) return;
-    error(p_.system == 1, {"parallel", "system"}, "expected parallel replicated in system 1");
-    error(p_.coulomb == CoulombSum::direct, {"parallel", "coulomb"},
-          "expected coulomb tree or coulomb auto: a direct sum needs all beads on every rank");
-    error(p_.coulomb_expansions == ExpansionKind::none, {"parallel", "coulomb expansions"},
-          "expected coulomb expansions local");
-    error(p_.integrator == Scheme::sra1, {"parallel", "integrator"},
-          "expected another integrator than sra1, which draws for all beads of the jet");
+    if (p_.parallel != ParallelData::distributed) return;
+    for (const Obstacle& o : obstacles_to_subdomains(p_)) error(true, o.directives, o.message);
   }
 
   const Given* find(std::string_view words) const { return treejet::find(given_, directive(words)); }
@@ -491,10 +480,10 @@ class Relations {
   }
 
   /// Blames the first of the directives concerned.
-  void error(bool violated, std::initializer_list<std::string_view> directives, const std::string& message) {
+  void error(bool violated, const std::vector<std::string_view>& directives, const std::string& message) {
     if (violated &&
         std::all_of(directives.begin(), directives.end(), [&](auto words) { return sound(words); }))
-      findings_.errors.push_back(about(*directives.begin(), message));
+      findings_.errors.push_back(about(directives.front(), message));
   }
 
   void note(bool holds, std::string_view words, const std::string& message) {

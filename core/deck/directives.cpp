@@ -256,8 +256,8 @@ const Directive table[] = {
      .meaning = "local: dual tree with local expansions; none: Barnes and Hut's, cells on beads"},
 
     {.words = "parallel", .member = &P::parallel,
-     .meaning = "what ranks hold: all of the jet each (replicated), or a subdomain each (distributed), for 1e6 beads and "
-                "more; needs system 3, coulomb tree or auto",
+     .meaning = "what ranks hold: all of the jet each (replicated), or a subdomain each (distributed: needs system 3, "
+                "coulomb tree or auto); auto: a subdomain where that can be and a rank has beads enough",
      .heading = "Ranks"},
 
     {.words = "print time", .member = &P::print_time, .unit = "s", .check = positive,

@@ -36,7 +36,8 @@ constexpr Word<TreeOrder> tree_orders[] = {
     {"auto", TreeOrder::automatic}, {"chain", TreeOrder::chain}, {"space", TreeOrder::space}};
 constexpr Word<ExpansionKind> expansions[] = {{"local", ExpansionKind::local}, {"none", ExpansionKind::none}};
 constexpr Word<ParallelData> parallel_data[] = {{"replicated", ParallelData::replicated},
-                                                {"distributed", ParallelData::distributed}};
+                                                {"distributed", ParallelData::distributed},
+                                                {"auto", ParallelData::automatic}};
 constexpr Word<SelfField> self_fields[] = {{"point", SelfField::point}, {"slender", SelfField::slender}};
 constexpr Word<CoulombLaw> coulomb_laws[] = {{"point", CoulombLaw::point},
                                              {"softened", CoulombLaw::softened}};

@@ -26,7 +26,7 @@ enum class Wave { constant, sine, square, rc, restart, ramp, table, rotating };
 enum class DragModel { jetspin, full };
 enum class Feed { pull, flow };
 enum class Model { paper, slender };
-enum class ParallelData { replicated, distributed };
+enum class ParallelData { replicated, distributed, automatic };
 enum class StressLawKind { maxwell, kelvin_voigt, oldroyd_b, giesekus, fene_p, power_law, herschel_bulkley };
 enum class EvaporationModel { vapour, jetspin };
 enum class SolventName { water, ethanol, dmf, chloroform, acetone };

@@ -10,6 +10,7 @@
 #include "core/base/lines.hpp"
 #include "core/base/output_file.hpp"
 #include "core/deck/deck.hpp"
+#include "core/deck/subdomains.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/directory_lock.hpp"
 #include "core/io/field_map_file.hpp"
@@ -26,10 +27,12 @@ namespace treejet {
 
 namespace {
 
-/// "2 ranks, 4 threads each".
-std::string workers_description(const Ranks& ranks, Threads threads) {
+/// "2 ranks, each with the whole jet and 4 threads".
+std::string workers_description(const Parameters& p, const Ranks& ranks, Threads threads) {
   if (ranks.size() == 1) return threads_description(threads);
-  return fmt::format("{} ranks, each with {}", ranks.size(), threads_description(threads));
+  return fmt::format("{} ranks, each with {} and {}", ranks.size(),
+                     p.parallel == ParallelData::distributed ? "a subdomain" : "the whole jet",
+                     threads_description(threads));
 }
 
 /// Ranks see signals at different steps and have clocks of their own: the clock of the first one counts, and
@@ -128,7 +131,7 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysi
       fmt::print("begins with {}; {}\n", made_by.begins_with,
                  steps ? "its steps go on" : "its steps begin anew");
     fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p),
-               workers_description(ranks, each));
+               workers_description(p, ranks, each));
   }
   if (a.force && ranks.first()) {  // it would stand beside rows that it does not belong to
     std::error_code error;
@@ -163,8 +166,18 @@ void expect_same_map(const Parameters& p, Checkpoint& resumed) {
                                  before.empty() ? "no field map" : before, now.empty() ? "none" : now));
 }
 
+/// A run that goes on is cut as it was; what looks at the whole jet needs it on one rank.
+ParallelData data_of_ranks(const Parameters& p, const Arguments& a, const Ranks& ranks,
+                           const Beginning& from) {
+  using enum ParallelData;
+  if (p.parallel != automatic) return p.parallel;
+  if (from.resumed) return from.resumed->records > 0 ? distributed : replicated;
+  return from.origin || a.estimate_error ? replicated : data_of_ranks(p, ranks.size());
+}
+
 int run(Deck deck, const Arguments& a, const Ranks& ranks, const OwnPhysics& own,
         const Beginning& from = {}) {
+  deck.parameters.parallel = data_of_ranks(deck.parameters, a, ranks, from);
   read_field_map_of(deck);
   if (from.resumed) expect_same_map(deck.parameters, *from.resumed);
   const bool straight = deck.parameters.system == 1;

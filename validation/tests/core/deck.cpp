@@ -15,6 +15,7 @@
 #include "core/deck/directives.hpp"
 #include "core/deck/foreign.hpp"
 #include "core/deck/observable_keys.hpp"
+#include "core/deck/subdomains.hpp"
 #include "core/deck/suggestion.hpp"
 #include "core/jet/scales.hpp"
 #include "validation/tests/core/broken_decks.hpp"
@@ -762,8 +763,20 @@ TEST_CASE("What a jet held in subdomains cannot do is refused by name", "[deck]"
     return parse_deck(text.replace(text.find(was), was.size(), "integrator " + integrator), name).parameters;
   };
   CHECK(adaptive("auto", "").parallel == ParallelData::distributed);
-  CHECK_THROWS_WITH(adaptive("kencarp5", "multirate no"),
-                    Catch::Contains("parallel distributed: expected an explicit integrator"));
+  CHECK(adaptive("kencarp5", "").parallel == ParallelData::distributed);
+}
+
+TEST_CASE("parallel auto takes subdomains of a thousand beads and more, where the scene lets it", "[deck]") {
+  const auto on_two = [](const std::string& lines) {
+    return data_of_ranks(parse_deck(altered("points 1", "points 2000\n" + lines), name).parameters, 2);
+  };
+  CHECK(on_two("parallel auto\ncoulomb auto") == ParallelData::distributed);
+  CHECK(on_two("coulomb auto") == ParallelData::replicated);
+  CHECK(on_two("parallel auto") == ParallelData::replicated);  // a direct sum
+  const Parameters p =
+      parse_deck(altered("points 1", "points 2000\nparallel auto\ncoulomb auto"), name).parameters;
+  CHECK(data_of_ranks(p, 1) == ParallelData::replicated);
+  CHECK(data_of_ranks(p, 3) == ParallelData::replicated);  // 667 beads a rank
 }
 
 TEST_CASE("No two directives share a spelling, and no two observables a key", "[deck]") {

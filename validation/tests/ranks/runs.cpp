@@ -127,6 +127,7 @@ TEST_CASE("Subdomains have every local term and meet events at the ends of steps
   const double seconds = 4e-4, interval = 1e-4;
   const std::vector<Directives> scenes = {
       {"tolerance 1.d-7", "self field slender", "surface tension model energy"},
+      {"tolerance 1.d-7", "evaporation yes", "evaporation polymer frac 0.1"},
       {"tolerance 1.d-7", "hbfluid yes", "hbfluid consistency 1.", "hbfluid index 0.8"},
       {"timestep 2.d-7", "integrator heun", "events step"}};
   for (const Directives& steps : scenes) {
@@ -142,11 +143,10 @@ TEST_CASE("Subdomains have every local term and meet events at the ends of steps
 TEST_CASE("The scheme that solves for local terms solves for those of all subdomains at once") {
   const Ranks& ranks = started_ranks();
   const double seconds = 2e-4, interval = 1e-4;
-  const std::vector<Directives> scenes = {
-      {"elastic modulus 1.d7"},  // waves cross the jet within a step
-      {"stress law giesekus", "stress law mobility 0.1", "solvent viscosity 5.", "airdrag yes",
-       "airdrag amplitude 100."},
-      {"model slender", "flow rate 0.5 mL/h"}};
+  const std::vector<Directives> scenes = {{"elastic modulus 1.d7"},  // waves cross the jet within a step
+                                          {"stress law giesekus", "stress law mobility 0.1",
+                                           "solvent viscosity 5.", "airdrag yes", "airdrag amplitude 100."},
+                                          {"model slender", "flow rate 0.5 mL/h"}};
   for (Directives steps : scenes) {
     steps.insert(steps.end(), {"tolerance 1.d-6", "integrator kencarp5"});
     CAPTURE(steps);
