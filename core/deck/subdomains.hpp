@@ -3,7 +3,7 @@
 ///
 /// Replicated, every rank builds the tree of the whole jet and moves all beads, and only the sum is shared
 /// out; in subdomains all is, at the price of a few rounds of messages an evaluation, which weigh the more
-/// the fewer beads a rank has. Where the two meet is measured: docs/accuracy.md.
+/// the fewer beads a rank has and the slower the network is. Measured in docs/accuracy.md.
 
 #include <string>
 #include <string_view>
@@ -14,7 +14,7 @@
 namespace treejet {
 
 /// From this number of beads a rank on `parallel auto` takes subdomains.
-constexpr int beads_worth_a_subdomain = 1000;
+constexpr int beads_worth_a_subdomain = 5000;
 
 struct Obstacle {
   std::vector<std::string_view> directives;

@@ -766,17 +766,17 @@ TEST_CASE("What a jet held in subdomains cannot do is refused by name", "[deck]"
   CHECK(adaptive("kencarp5", "").parallel == ParallelData::distributed);
 }
 
-TEST_CASE("parallel auto takes subdomains of a thousand beads and more, where the scene lets it", "[deck]") {
+TEST_CASE("parallel auto takes subdomains of five thousand beads and more, where the scene lets it", "[deck]") {
   const auto on_two = [](const std::string& lines) {
-    return data_of_ranks(parse_deck(altered("points 1", "points 2000\n" + lines), name).parameters, 2);
+    return data_of_ranks(parse_deck(altered("points 1", "points 10000\n" + lines), name).parameters, 2);
   };
   CHECK(on_two("parallel auto\ncoulomb auto") == ParallelData::distributed);
   CHECK(on_two("coulomb auto") == ParallelData::replicated);
   CHECK(on_two("parallel auto") == ParallelData::replicated);  // a direct sum
   const Parameters p =
-      parse_deck(altered("points 1", "points 2000\nparallel auto\ncoulomb auto"), name).parameters;
+      parse_deck(altered("points 1", "points 10000\nparallel auto\ncoulomb auto"), name).parameters;
   CHECK(data_of_ranks(p, 1) == ParallelData::replicated);
-  CHECK(data_of_ranks(p, 3) == ParallelData::replicated);  // 667 beads a rank
+  CHECK(data_of_ranks(p, 3) == ParallelData::replicated);  // 3333 beads a rank
 }
 
 TEST_CASE("No two directives share a spelling, and no two observables a key", "[deck]") {

@@ -167,17 +167,17 @@ on 2 "$treejet" run --resume cut --quiet --walltime 600 2>err || fail "a jet in 
 on 3 $run --set "final time 2.d-4" --out subdomains 2>err || fail "a jet in subdomains: $(cat err)"
 alike "a jet in subdomains that lost a rank" subdomains cut
 
-# the program's choice: subdomains of a thousand beads and more, which a run that is resumed keeps
+# the program's choice: subdomains of five thousand beads and more, which a run that is resumed keeps
 holds() {  # RANKS WORDS COMMAND...
   ranks=$1 words=$2
   shift 2
   on "$ranks" "$@" >out 2>err
   is "what each of $ranks ranks holds" "$(grep -o 'each with [a-z]* [a-z]*' out)" "each with $words"
 }
-set -- deck.dat --force --out chosen --set "parallel auto" --set "points 2200"
+set -- deck.dat --force --out chosen --set "parallel auto" --set "points 10200"
 on 2 "$treejet" run "$@" --quiet --set "checkpoint 0.01" --walltime 0.5 2>err
 holds 3 "a subdomain" "$treejet" run --resume chosen --walltime 1
-holds 2 "a subdomain" "$treejet" run "$@" --set "final time 2.d-6"
-holds 3 "the whole" "$treejet" run "$@" --set "final time 2.d-6"
+holds 2 "a subdomain" "$treejet" run "$@" --set "final time 4.d-7"
+holds 3 "the whole" "$treejet" run "$@" --set "final time 4.d-7"
 
 [ $failures = 0 ] || exit 1
