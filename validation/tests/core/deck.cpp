@@ -766,7 +766,8 @@ TEST_CASE("What a jet held in subdomains cannot do is refused by name", "[deck]"
   CHECK(adaptive("kencarp5", "").parallel == ParallelData::distributed);
 }
 
-TEST_CASE("parallel auto takes subdomains of five thousand beads and more, where the scene lets it", "[deck]") {
+TEST_CASE("parallel auto takes subdomains of five thousand beads and more, where the scene lets it",
+          "[deck]") {
   const auto on_two = [](const std::string& lines) {
     return data_of_ranks(parse_deck(altered("points 1", "points 10000\n" + lines), name).parameters, 2);
   };
