@@ -13,17 +13,15 @@ constexpr int least_share = 4;
 /// Beads that are on their way to a file at a time: a few MB.
 constexpr int portion_beads = 16'384;
 
-constexpr auto constants = {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume};
-
 /// Beads on their way, a column each: state, mass, charge, volume, what is carried along.
 using Beads = Eigen::ArrayXXd;
 
 Beads beads_of(const Jet<3>& jet, const Eigen::ArrayXXd& carried) {
   const Eigen::Index n = jet.size(), columns = jet.y.cols();
-  Beads all(columns + static_cast<Eigen::Index>(constants.size()) + carried.cols(), n);
+  Beads all(columns + static_cast<Eigen::Index>(bead_constants.size()) + carried.cols(), n);
   all.topRows(columns) = jet.y.transpose();
   Eigen::Index word = columns;
-  for (auto each : constants) all.row(word++) = (jet.*each).transpose();
+  for (auto each : bead_constants) all.row(word++) = (jet.*each).transpose();
   all.bottomRows(carried.cols()) = carried.transpose();
   return all;
 }
@@ -31,7 +29,7 @@ Beads beads_of(const Jet<3>& jet, const Eigen::ArrayXXd& carried) {
 void set_beads(Jet<3>& jet, const Beads& all) {
   Eigen::Index word = jet.y.cols();
   jet.y = all.topRows(word).transpose();
-  for (auto each : constants) jet.*each = all.row(word++).transpose();
+  for (auto each : bead_constants) jet.*each = all.row(word++).transpose();
 }
 
 /// Numbers of these beads, one by one.
@@ -51,11 +49,10 @@ struct Saved {
 
 void expect_complete(const Saved& saved, std::int64_t count, Eigen::Index columns, Eigen::Index carried) {
   const Jet<3>& jet = saved.jet;
-  bool complete = jet.size() == count && jet.slope.rows() == count && jet.y.cols() == columns &&
-                  jet.slope.cols() == columns && saved.carried.cols() == carried &&
-                  (carried == 0 || saved.carried.rows() == count);
-  for (auto each : constants) complete = complete && (jet.*each).size() == count;
-  if (!complete) throw FileError("the checkpoint has beads without a mass, a charge, a volume or a velocity");
+  const bool sound = complete(jet) && jet.size() == count && jet.slope.rows() == count &&
+                     jet.y.cols() == columns && jet.slope.cols() == columns &&
+                     saved.carried.cols() == carried && (carried == 0 || saved.carried.rows() == count);
+  if (!sound) throw FileError("the checkpoint has beads without a mass, a charge, a volume or a velocity");
 }
 
 }  // namespace
@@ -195,7 +192,7 @@ void ChainDecomposition::arrange(Jet<3>& jet, const Layout& had) {
     }
   }
   set_beads(jet, all);
-  set_carried_(all.bottomRows(words - jet.y.cols() - Eigen::Index{constants.size()}).transpose());
+  set_carried_(all.bottomRows(words - jet.y.cols() - Eigen::Index{bead_constants.size()}).transpose());
 }
 
 /// Every element belongs to the bead at its lower end.
@@ -238,7 +235,7 @@ std::string ChainDecomposition::portion(const Jet<3>& jet, int rank, Stretch bea
     const int row = own().first + beads.first - layout_.own(rank).first, n = beads.size();
     some.jet.t = jet.t;
     some.jet.y = jet.y.middleRows(row, n);
-    for (auto each : constants) some.jet.*each = (jet.*each).segment(row, n);
+    for (auto each : bead_constants) some.jet.*each = (jet.*each).segment(row, n);
     some.jet.removed = jet.removed + beads.first;
     if (jet.slope.rows() == jet.y.rows()) {
       some.jet.slope = jet.slope.middleRows(row, n);
@@ -274,7 +271,7 @@ void ChainDecomposition::visit(Jet<3>& jet, Archive& state) {
   cut_as_saved_ = borders.size() == layout_.borders.size();
   if (cut_as_saved_) layout_.borders = borders;
   for (auto* table : {&jet.y, &jet.slope}) table->resize(0, columns);
-  for (auto each : constants) (jet.*each).resize(0);
+  for (auto each : bead_constants) (jet.*each).resize(0);
 }
 
 std::int64_t ChainDecomposition::records() const {
@@ -301,7 +298,7 @@ void ChainDecomposition::read(Jet<3>& jet, const ReadRecords& records) {
   const Eigen::Index n = place_of(total(), here), columns = jet.y.cols();
   Eigen::ArrayXXd carried(n, carried_(0, 0).cols());
   for (auto* table : {&jet.y, &jet.slope}) table->resize(n, columns);
-  for (auto each : constants) (jet.*each).resize(n);
+  for (auto each : bead_constants) (jet.*each).resize(n);
   Eigen::Index found = 0;
   const auto parts_here = [&](std::int64_t first, std::int64_t count) {
     std::vector<Stretch> parts;
@@ -325,7 +322,7 @@ void ChainDecomposition::read(Jet<3>& jet, const ReadRecords& records) {
       const Eigen::Index row = place_of(part.first, here), from = part.first - record.first, m = part.size();
       jet.y.middleRows(row, m) = some.jet.y.middleRows(from, m);
       jet.slope.middleRows(row, m) = some.jet.slope.middleRows(from, m);
-      for (auto each : constants) (jet.*each).segment(row, m) = (some.jet.*each).segment(from, m);
+      for (auto each : bead_constants) (jet.*each).segment(row, m) = (some.jet.*each).segment(from, m);
       if (carried.cols() > 0) carried.middleRows(row, m) = some.carried.middleRows(from, m);
       found += m;
     }

@@ -26,6 +26,9 @@
 
 namespace treejet {
 
+/// What is constant of a bead, and travels with it.
+inline constexpr auto bead_constants = {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume};
+
 class ChainDecomposition final : public Decomposition<3> {
  public:
   ChainDecomposition(int beads, const Ranks& ranks, Ends ends = {});

@@ -4,10 +4,6 @@
 
 namespace treejet {
 
-namespace {
-constexpr auto constants = {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume};
-}
-
 void DistributedMotion::operator()(const Jet<3>& jet, double t, const State<3>& y, State<3>& slope) {
   const Working at(Work::local);
   slope.resize(y.rows(), y.cols());
@@ -40,16 +36,16 @@ void DistributedMotion::differentiate(const Jet<3>& jet, double t, const State<3
 /// The own beads and, from the ranks next along the chain, one on either side: state, mass, charge, volume.
 void DistributedMotion::extend(const Jet<3>& jet, const State<3>& y) {
   const Rows own = subdomains_.own();
-  State<3> beads(own.size(), y.cols() + Eigen::Index{constants.size()});
+  State<3> beads(own.size(), y.cols() + Eigen::Index{bead_constants.size()});
   beads.leftCols(y.cols()) = y.middleRows(own.first, own.size());
   Eigen::Index column = y.cols();
-  for (auto each : constants) beads.col(column++) = (jet.*each).segment(own.first, own.size());
+  for (auto each : bead_constants) beads.col(column++) = (jet.*each).segment(own.first, own.size());
   beads = between_neighbours(beads);
 
   first_ = subdomains_.older() >= 0 ? 1 : 0;
   extended_.y = beads.leftCols(y.cols());
   column = y.cols();
-  for (auto each : constants) extended_.*each = beads.col(column++);
+  for (auto each : bead_constants) extended_.*each = beads.col(column++);
   extended_.removed = subdomains_.before(jet) + own.first - first_;
   extended_.held = jet.held && subdomains_.has_youngest();
   extended_.last_release = jet.last_release;

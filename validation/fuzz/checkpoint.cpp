@@ -62,9 +62,7 @@ std::string sealed(std::string bytes) {
 template <int D>
 void begin(const Origin& o, const Parameters& p) {
   const Jet<D> jet = jet_of<D>(o, p);
-  const auto n = jet.size();
-  demand(n > 0 && jet.mass.size() == n && jet.charge.size() == n && jet.volume.size() == n,
-         "each bead has its constants");
+  demand(jet.size() > 0 && complete(jet), "each bead has its constants");
   demand(jet.y.allFinite(), "the beads are somewhere");
 }
 

@@ -1,9 +1,8 @@
 /// Feeds one of the readers (validation/fuzz/target.hpp) by libFuzzer. CMake preset fuzz; a program each:
 ///
 ///     cmake --preset fuzz && cmake --build build/fuzz
-///     build/fuzz/fuzz-checkpoint --seeds build/fuzz/corpus-checkpoint
-///     build/fuzz/fuzz-checkpoint -timeout=10 -malloc_limit_mb=256 -max_total_time=600
-///     build/fuzz/corpus-checkpoint
+///     build/fuzz/fuzz-checkpoint --seeds build/fuzz/seeds
+///     build/fuzz/fuzz-checkpoint -timeout=10 -malloc_limit_mb=256 -max_total_time=600 build/fuzz/seeds
 ///
 /// HDF5 loses memory over damaged files, and asks for too much (-detect_leaks=0,
 /// ASAN_OPTIONS=allocator_may_return_null=1). --seeds DIR writes the seeds, --dictionary prints
