@@ -1,4 +1,5 @@
-"""One of three ranks that hold a jet in subdomains is killed (SIGKILL) at random moments, from before MPI_Init on.
+"""One of three ranks that hold a jet in subdomains is killed (SIGKILL) at random moments, from before MPI_Init on; every other
+time not before there is a checkpoint.
 
 Each time the launcher ends within ten seconds, always with one and the same code, not 0, and no rank is left; the run goes on
 from its checkpoint, or from the start if there was none yet, and once it is left alone it ends with the bytes of a run that
@@ -111,6 +112,8 @@ def life(runs, tally, chance, longest):
         launcher.kill()
         tally.failures.append(f"no rank to kill: {launcher.communicate()[1]}")
         return True
+    if tally.kills % 2 == 1:  # every other kill finds a checkpoint, however fast the machine starts ranks
+        wait_until(lambda: (runs.killed / "checkpoint").exists() or launcher.poll() is not None, HANGS)
     if wait_until(lambda: launcher.poll() is not None, chance.uniform(0, longest)):
         if launcher.returncode != 0:
             tally.failures.append(f"ends by itself with {launcher.returncode}: {launcher.communicate()[1]}")
