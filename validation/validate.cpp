@@ -38,6 +38,7 @@ struct Study {
 };
 
 const std::vector<Study> studies = {
+    {"convergence", "Point charges against the slender self-field", {treejet::study_convergence}, 3, 30},
     {"paper",
      "The paper's cases, figure by figure, beside what is published",
      {treejet::study_single_bead, treejet::study_straight_jet, treejet::study_pvp_jet,
@@ -51,7 +52,6 @@ const std::vector<Study> studies = {
      0},
     {"whipping", "Frequency and wavelength of the whipping", {treejet::study_whipping}, 1, 10},
     {"resolution", "Case 3 with longer and shorter elements", {treejet::study_resolution}, 2, 15},
-    {"convergence", "Point charges against the slender self-field", {treejet::study_convergence}, 3, 30},
     {"time",
      "Error against work, orders of convergence, time reversal",
      {treejet::study_time_reversal, treejet::study_promised_accuracy, treejet::study_reference_values,

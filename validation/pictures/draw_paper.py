@@ -167,19 +167,69 @@ def draw_convergence_straight(rows, directory):
 
 
 def draw_convergence_flow(rows, directory):
-    figure, panels = plt.subplots(1, 2, figsize=(9, 4), layout="constrained")
+    """Aperture and path against the elements: both inlets, both self-fields, fixed and adaptive elements, the limit."""
+    figure, panels = plt.subplots(1, 2, figsize=(10.4, 4.6), layout="constrained")
     step = column(rows, "l_step [cm]")
+    by_pull = directory / "convergence-pvp.csv"
+    paper = table(by_pull) if by_pull.exists() else []
     for panel, what in zip(panels, ("aperture [degree]", "path [cm]")):
         for field, colour in (("points", "#d62828"), ("slender", "#00798c"), ("adaptive", "#edae49")):
-            panel.semilogx(step, column(rows, f"{field}: {what}"), color=colour, marker="o", markersize=4, label=field)
+            panel.semilogx(step, column(rows, f"{field}: {what}"), color=colour, marker="o", markersize=4, label=f"{field}, given flow")
+            if paper and field != "adaptive":
+                panel.semilogx(column(paper, "l_step [cm]"), column(paper, f"{field}: {what}"), color=colour, linestyle=":", marker="s", markersize=3,
+                               label=f"{field}, paper's inlet")
         limit = column(rows, f"limit: {what}")[-1]
         panel.axhline(limit, color="#555555", linestyle="--", linewidth=0.9, label="adaptive, shortest")
         panel.axhspan(0.97 * limit, 1.03 * limit, color="#cccccc", alpha=0.35, label="3 % of it")
         panel.invert_xaxis()
         panel.minorticks_off()
-        panel.set_xticks(step, [f"{s:g}" for s in step], rotation=45)
+        ticks = sorted({*step, *(column(paper, "l_step [cm]") if paper else ())})
+        panel.set_xticks(ticks, [f"{s:g}" for s in ticks], rotation=45)
         panel.set(xlabel="length of an element at the nozzle (cm)", title=what)
     finish(figure, panels, directory / "convergence-flow.png")
+
+
+def draw_against_theory(rows, directory, name, elements, theories, title):
+    """What chains of points and of tubes give on a closed thread, and what theory does."""
+    figure, panel = plt.subplots(figsize=(5.6, 4), layout="constrained")
+    count = column(rows, elements)
+    for field, theory, colour in theories:
+        panel.semilogx(count, column(rows, field), color=colour, marker="o", markersize=4, label=field)
+        if theory:
+            panel.axhline(column(rows, theory)[0], color=colour, linestyle="--", linewidth=0.9, label=theory)
+    panel.minorticks_off()
+    panel.set_xticks(count, [f"{n:g}" for n in count])
+    panel.set(xlabel="elements in 2 cm", title=title)
+    finish(figure, [panel], directory / f"{name}.png")
+
+
+def draw_convergence_thread(rows, directory):
+    fields = (("points [1/s]", None, "#d62828"), ("slender [1/s]", "theory [1/s]", "#00798c"))
+    draw_against_theory(rows, directory, "convergence-thread", "elements", fields, "Growth rate of a helical wave")
+
+
+def draw_convergence_helix(rows, directory):
+    fields = (("points", None, "#d62828"), ("slender", "endless helix", "#00798c"), ("small wave: slender", "linear theory", "#edae49"))
+    draw_against_theory(rows, directory, "convergence-helix", "elements in 2 cm", fields, "Amplification of a helical wave in 0.6 ms")
+
+
+def draw_convergence_fed(rows, directory):
+    draw_convergence(rows, directory, "convergence-fed", ("current [statC/s]", "vc [cm/s]", "rc [cm]"))
+
+
+def draw_convergence_adaptive(rows, directory):
+    fixed = [row for row in rows if row["tolerance of an arc"] == "fixed"][0]
+    adaptive = [row for row in rows if row["tolerance of an arc"] != "fixed"]
+    figure, panels = plt.subplots(1, 2, figsize=(8.4, 3.8), layout="constrained")
+    for panel, what in zip(panels, ("aperture [degree]", "path [cm]")):
+        tolerance = column(adaptive, "tolerance of an arc")
+        panel.semilogx(tolerance, column(adaptive, what), color="#edae49", marker="o", markersize=4, label="adaptive")
+        panel.axhline(float(fixed[what]), color="#00798c", linestyle="--", linewidth=0.9, label="fixed")
+        panel.invert_xaxis()
+        panel.minorticks_off()
+        panel.set_xticks(tolerance, [f"{t:g}" for t in tolerance])
+        panel.set(xlabel="tolerance of an arc", title=what)
+    finish(figure, panels, directory / "convergence-adaptive.png")
 
 
 def draw_whipping_frequencies(rows, directory):
@@ -218,6 +268,10 @@ DRAWINGS = {
     "convergence-pvp": [draw_convergence_pvp],
     "convergence-straight": [draw_convergence_straight],
     "convergence-flow": [draw_convergence_flow],
+    "convergence-thread": [draw_convergence_thread],
+    "convergence-helix": [draw_convergence_helix],
+    "convergence-fed": [draw_convergence_fed],
+    "convergence-adaptive": [draw_convergence_adaptive],
     "whipping_frequencies": [draw_whipping_frequencies],
     "whipping_axis": [draw_whipping_axis],
 }
