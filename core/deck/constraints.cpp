@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <numbers>
 #include <span>
 
 #include "core/deck/observable_keys.hpp"
@@ -44,7 +45,9 @@ class Relations {
     evaporation();
     output();
     subdomains();
-    if (composable()) finite_scales();
+    if (!composable()) return;
+    finite_scales();
+    magnetic_turns();
   }
 
  private:
@@ -296,6 +299,7 @@ class Relations {
     for (std::size_t k = 2; k + 1 < p_.field_table.size(); k += 2)
       ordered &= p_.field_table[k] > p_.field_table[k - 2];
     error(!ordered, {"field table"}, "expected pairs of a time, later each time, and a factor");
+    magnetic_field();
     const double pull =
         (p_.field_vector.empty() ? p_.external_potential : p_.field_vector[0]) * p_.density_charge;
     note(pull < 0, vector ? "field vector" : "external potential",
@@ -305,6 +309,15 @@ class Relations {
     error(halves > most_halves, {"field frequency", "final time"},
           fmt::format("expected at most {:.3g} Hz: at most {:.0e} half periods in final time ({} s)",
                       most_halves / (2 * p_.final_time), most_halves, p_.final_time));
+  }
+
+  void magnetic_field() {
+    const bool magnetic = is_given("magnetic field");
+    error(magnetic && p_.magnetic_field.size() != 3, {"magnetic field"},
+          "expected three numbers, for x, y and z");
+    error(magnetic && p_.system == 1, {"magnetic field", "system"},
+          "expected system 3: a straight jet has no room to turn");
+    note(magnetic && p_.density_charge == 0, "magnetic field", "no effect without density charge");
   }
 
   /// A detail that this field wave is made of, and others are not.
@@ -434,6 +447,7 @@ class Relations {
                                 {"L_step (element)", g.L_step, true},
                                 {"air density", air(p_).density, in_air(p_)},
                                 {"air viscosity", air(p_).viscosity, in_air(p_)},
+                                {"M (magnetic field)", magnetic_norm(), magnetic_norm() != 0},
                                 {"noise", noise(p_).squared_amplitude(1), is_random(p_)}};
     for (const Product& product : products) {
       if (std::isfinite(product.value) && (!product.positive || std::isnormal(product.value))) continue;
@@ -443,6 +457,20 @@ class Relations {
                        product.name, product.value)});
       return;
     }
+  }
+
+  /// Each turn takes a few steps.
+  void magnetic_turns() {
+    constexpr double most_turns = 1e9;
+    const double angle = magnetic_norm() / scales(p_).time * p_.final_time;
+    error(angle > 2 * std::numbers::pi * most_turns, {"magnetic field", "final time"},
+          fmt::format("beads would go round {:.0e} times in final time ({} s), which no run can follow",
+                      angle / (2 * std::numbers::pi), p_.final_time));
+  }
+
+  double magnetic_norm() const {
+    const std::array<double, 3> M = magnetic_groups(p_);
+    return std::hypot(M[0], M[1], M[2]);
   }
 
   void subdomains() {

@@ -189,6 +189,8 @@ const Directive table[] = {
      .meaning = "file with the potential on a grid (HDF5, VTK image data; m and V, nozzle at the origin): its field instead of that of "
                 "external potential",
      .absent = "none"},
+    {.words = "magnetic field", .member = &P::magnetic_field,
+     .meaning = "x, y and z of a uniform, constant magnetic field in gauss, with units real in tesla (system 3)", .absent = "none"},
     {.words = "gravity", .member = &P::gravity, .meaning = "gravity along x", .example = "yes"},
     {.words = "cutoff", .member = &P::cutoff, .unit = "cm", .check = positive,
      .meaning = "reach of the Coulomb force along the jet, measured at the nozzle", .absent = "the full sum"},

@@ -6,6 +6,7 @@
 /// that goes over the columns of a state takes them along: schemes, the error norm, dense output, history,
 /// subdomains, checkpoints and frames. A scene that adds none has none.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct Column {
   double at_birth = 0;  ///< scaled value that a bead leaves the nozzle with
   double small = 1;     ///< scaled size below which the error norm does not count relatively
   double volume = 0;    ///< what 1 of it adds to volume and mass, in units of those at the nozzle
+  /// The value that it falls to and keeps: its rate is 0 at exactly this value, and anywhere else goes on as
+  /// if there were none. The march ends a step where a bead gets there (integrators/march/endings.hpp).
+  std::optional<double> end = {};
 };
 
 using Columns = std::vector<Column>;

@@ -15,7 +15,8 @@
 ///     delta = rho_v ( (1 - phi) exp(phi + chi phi^2) - humidity ) / rho ,      rho_v = p_s M / (R T) ,
 ///
 /// which conserves mass and ends where the solution is in balance with the air. JETSPIN (`jetspin`) has a
-/// ratio of pressures for that of densities, 1330 times too much for water, and stops at c = 0.9:
+/// ratio of pressures for that of densities, 1330 times too much for water, and stops at c = 0.9, which is an
+/// event (integrators/march/march.hpp):
 ///
 ///     delta = p_s / p_atmosphere ( 1 - humidity ) .
 ///
@@ -45,6 +46,9 @@ class Evaporation {
   double remaining(double w) const { return polymer_ + w; }
   double concentration(double w) const { return polymer_ / remaining(w); }
 
+  /// The solvent content at which drying stops, if it does before all is gone: 0 rate at exactly this value.
+  std::optional<double> end() const;
+
   /// delta, for this solvent content.
   double driving(double w) const;
 
@@ -59,7 +63,7 @@ class Evaporation {
   double relaxation_ratio(double c) const;  ///< theta / theta_0
 
  private:
-  double polymer_, activity_scale_, humidity_, chi_, driest_;
+  double polymer_, activity_scale_, humidity_, chi_;
   bool by_vapour_;
   double coefficient_, least_speed2_, wind_ = 0;
   double B_, m_, t_;

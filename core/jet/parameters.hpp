@@ -41,7 +41,8 @@ struct CoulombSetting {
   ExpansionKind coulomb_expansions = ExpansionKind::local;
 };
 
-/// How the external field goes with time and place (core/jet/waveform.hpp, forces/terms/external_field.hpp).
+/// How the external field goes with time and place (core/jet/waveform.hpp, forces/terms/external_field.hpp),
+/// and a magnetic one.
 struct FieldSetting {
   Wave field_wave = Wave::constant;
   std::optional<double> field_frequency;     ///< Hz
@@ -52,6 +53,7 @@ struct FieldSetting {
   std::optional<double> field_needle;        ///< tip radius, cm
   std::string field_map;                     ///< file; empty: none
   std::shared_ptr<const FieldMap> map = {};  ///< what is in that file, once somebody has read it
+  std::vector<double> magnetic_field;        ///< uniform and constant, gauss; empty: none
 };
 
 /// The gas around the jet; that of a room at 20 C and 1 atm where the deck names none.

@@ -1,5 +1,6 @@
 #include "core/jet/scales.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -65,6 +66,15 @@ std::array<double, 3> field_groups(const Parameters& p) {
   for (std::size_t k = 0; k < 3; ++k)
     V[k] = s.charge * potential(p, k) / p.collector_distance / (s.mass * (s.length / (s.time * s.time)));
   return V;
+}
+
+std::array<double, 3> magnetic_groups(const Parameters& p) {
+  const Scales s = scales(p);
+  const double turn = s.charge / s.mass * s.time / speed_of_light;
+  std::array<double, 3> M{};
+  for (std::size_t k = 0; k < std::min(M.size(), p.magnetic_field.size()); ++k)
+    M[k] = turn * (p.units == Units::real ? gauss_per_tesla : 1) * p.magnetic_field[k];
+  return M;
 }
 
 Gas air(const Parameters& p) {

@@ -37,6 +37,8 @@ struct Groups {
 /// Speed of light in cm/s over 10: statC per coulomb; 299.792458 V are one statV.
 constexpr double statcoulomb_per_coulomb = 2997924580.0;
 constexpr double volt_per_statvolt = 299.792458;
+constexpr double speed_of_light = 2.99792458e10;  ///< cm/s
+constexpr double gauss_per_tesla = 1e4;
 constexpr double standard_gravity = 980.665;  ///< cm/s^2
 
 Scales scales(const Parameters& p);
@@ -44,6 +46,9 @@ Groups groups(const Parameters& p);
 
 /// The groups V of the three components of the external field; the first is that of `groups`.
 std::array<double, 3> field_groups(const Parameters& p);
+
+/// The groups M of the three components of the magnetic field, q B mu / (m c G); zeros without one.
+std::array<double, 3> magnetic_groups(const Parameters& p);
 
 /// The air, scaled; it exerts forces of the scaled equations of motion.
 Gas air(const Parameters& p);

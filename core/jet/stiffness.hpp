@@ -19,6 +19,7 @@
 ///     rho v^2 + mu e / (1 + tau e) = pi a_0^2 rho_q^2 + rho_q l_step V_0 / h ,      e = v / l_step ;
 /// fed by flow, v is that of the flow.
 
+#include <algorithm>
 #include <string>
 
 #include "core/jet/parameters.hpp"
@@ -30,6 +31,7 @@ struct Stiffness {
   double relaxation;     ///< tau, s
   double bead_interval;  ///< l_step / v, s
   double drag_rate;      ///< 1/s, 0 without air
+  double turn_rate = 0;  ///< of a bead in a magnetic field, 1/s
 
   /// Steps a bead to which stability binds an explicit scheme.
   double stable_steps() const {
@@ -38,10 +40,10 @@ struct Stiffness {
   }
 
   /// Stress, or motion through the air, that relaxes within the interval of beads cannot be continued in time
-  /// over several of them: PVP at two rates runs at G times 10 (interval / tau = 3) and breaks down at G
-  /// times 20 (6.5).
+  /// over several of them, nor can a circle that is closed in a few: PVP at two rates runs at G times 10
+  /// (interval / tau = 3) and breaks down at G times 20 (6.5).
   bool relaxes_between_beads() const {
-    return bead_interval > 2 * relaxation || drag_rate * bead_interval > 2;
+    return bead_interval > 2 * relaxation || std::max(drag_rate, turn_rate) * bead_interval > 2;
   }
 };
 

@@ -24,6 +24,7 @@
 #include "forces/terms/laws/inelastic.hpp"
 #include "forces/terms/laws/kelvin_voigt.hpp"
 #include "forces/terms/laws/oldroyd_b.hpp"
+#include "forces/terms/magnetic_field.hpp"
 #include "forces/terms/random_force.hpp"
 #include "forces/terms/slender_self_field.hpp"
 #include "forces/terms/softened_coulomb.hpp"
@@ -108,6 +109,7 @@ class Composer {
         [&] { return std::make_unique<ViscousTension<D>>(g_.L_step, g_.F_ve, viscous, drying(p_)); },
         "viscous tension");
     add_field();
+    add_magnetic_field();
     add(
         g_.F_g != 0, "no gravity yes", [&] { return std::make_unique<Gravity<D>>(g_.F_g); }, "gravity");
     if (p_.surface_model == SurfaceModel::energy) {
@@ -211,10 +213,11 @@ class Composer {
         : p_.evaporation                         ? "masses change with evaporation"
         : p_.refinement && p_.self_field == SelfField::slender
             ? "where unequal elements meet the self-field of several makes one force"
-        : !smooth_stress_                       ? "the stress law has a kink or all but a jump"
-        : stiffness(p_).relaxes_between_beads() ? "stress or drag relaxes within the interval of beads"
-        : !hasty.empty()                        ? hasty.c_str()
-                                                : nullptr;
+        : !smooth_stress_ ? "the stress law has a kink or all but a jump"
+        : stiffness(p_).relaxes_between_beads()
+            ? "stress or drag relaxes, or the magnetic field turns beads, within their interval"
+        : !hasty.empty() ? hasty.c_str()
+                         : nullptr;
     note(!why_not, "two rates", "multirate auto", why_not);
     return !why_not;
   }
@@ -248,6 +251,17 @@ class Composer {
     const double per_field = s.charge / s.mass / (s.length / (s.time * s.time));
     terms_.push_back(std::make_unique<MappedField<D>>(per_field, ScaledMap{p_.map, s.length}, wave));
     composed.push_back({p_.map->name(), "field map"});
+  }
+
+  void add_magnetic_field() {
+    const std::array<double, 3> M = magnetic_groups(p_);
+    const bool acts = M != std::array<double, 3>{};
+    if constexpr (D == 3)
+      add(
+          acts, p_.density_charge == 0 ? "density charge is 0" : "no magnetic field",
+          [&] { return std::make_unique<MagneticField>(M); }, "magnetic field");
+    else
+      left_out.push_back({"magnetic field", "a straight jet (system 1) has no room to turn"});
   }
 
   void add_air() {

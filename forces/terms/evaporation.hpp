@@ -28,7 +28,8 @@ class SolventColumn final : public ColumnRate<D> {
             .unit = "1",
             .at_birth = evaporation_.solvent_at_birth(),
             .small = evaporation_.polymer(),
-            .volume = 1};
+            .volume = 1,
+            .end = evaporation_.end()};
   }
   void amend(Chain<D>& c, int added, Rows rows) const override {
     for (int i = rows.first; i < rows.last; ++i) {

@@ -30,22 +30,25 @@ void March<D>::evaluate(SolutionPoint<D>& point, const State<D>* known) {
   effort_.evaluations += parts_.motion.on_accepted_step(jet_, point.t, point.y, known, point.slope);
 }
 
+/// By how much an event is late in a state that this step has led to.
 template <int D>
-double March<D>::overdue(bool insertion, const State<D>& y, double t) const {
+double March<D>::overdue(Kind kind, const State<D>& y, double t) const {
+  if (kind == Kind::ending) return parts_.decomposition.greatest(parts_.endings.overdue(jet_.y, y));
   const Eigen::Index last = y.rows() - 1;
-  if (insertion) return parts_.nozzle.overdue(jet_, position<D>(y, last), t);
+  if (kind == Kind::insertion) return parts_.nozzle.overdue(jet_, position<D>(y, last), t);
   return parts_.collector.overdue(y(0, 0));
 }
 
 template <int D>
-double March<D>::overdue(bool insertion, const DenseOutput<D>& segment, double t) {
-  segment.at(t, insertion ? segment.first().rows() - 1 : 0, one_);
-  return overdue(insertion, one_, t);
+double March<D>::overdue(Kind kind, const DenseOutput<D>& segment, double t) {
+  if (kind == Kind::ending) return overdue(kind, segment.at(t), t);
+  segment.at(t, kind == Kind::insertion ? segment.first().rows() - 1 : 0, one_);
+  return overdue(kind, one_, t);
 }
 
 template <int D>
-double March<D>::zero(bool insertion, const DenseOutput<D>& segment, double a, double b) {
-  double ga = overdue(insertion, segment, a), gb = overdue(insertion, segment, b);
+double March<D>::zero(Kind kind, const DenseOutput<D>& segment, double a, double b) {
+  double ga = overdue(kind, segment, a), gb = overdue(kind, segment, b);
   if (ga >= 0) return a;
   const double wide = 1e-6 * (b - a);
   // regula falsi, Illinois variant
@@ -54,7 +57,7 @@ double March<D>::zero(bool insertion, const DenseOutput<D>& segment, double a, d
     // the zero but for round-off; b may still be far away if the function is straight
     if (!(c > a)) return b - a > wide ? a : b;
     if (!(c < b)) break;
-    const double gc = overdue(insertion, segment, c);
+    const double gc = overdue(kind, segment, c);
     if (gc < 0) {
       a = c, ga = gc;
       gb /= 2;
@@ -69,17 +72,18 @@ double March<D>::zero(bool insertion, const DenseOutput<D>& segment, double a, d
 template <int D>
 std::optional<typename March<D>::Due> March<D>::first_event(const DenseOutput<D>& segment, double reach) {
   std::optional<Due> first;
-  const auto look_for = [&](bool insertion) {
+  const auto look_for = [&](Kind kind) {
     double end = segment.until;
-    if (overdue(insertion, next_.y, next_.t) < 0) {
-      if (reach <= end || overdue(insertion, segment, reach) < 0) return;
+    if (overdue(kind, next_.y, next_.t) < 0) {
+      if (reach <= end || overdue(kind, segment, reach) < 0) return;
       end = reach;
     }
-    const double t = zero(insertion, segment, segment.begin(), end);
-    if (!first || t < first->t) first = Due{t, insertion};
+    const double t = zero(kind, segment, segment.begin(), end);
+    if (!first || t < first->t) first = Due{t, kind};
   };
-  if (parts_.nozzle.inserting()) look_for(true);
-  if (parts_.collector.removing()) look_for(false);
+  if (parts_.nozzle.inserting()) look_for(Kind::insertion);
+  if (parts_.collector.removing()) look_for(Kind::removal);
+  if (parts_.endings.any()) look_for(Kind::ending);
   return first;
 }
 
@@ -163,13 +167,14 @@ void March<D>::begin_piece() {
 
 template <int D>
 void March<D>::start() {
+  hold_ended();
   for (auto* w : parts_.observers) w->start(jet_);
   begin_piece();
   evaluate(jet_);
   halt_if(not_finite<D>(jet_.y, jet_.slope, parts_.decomposition.before(jet_)), jet_.t);
   // a nozzle that circles far off the axis begins beyond the place where it lets a bead go
-  if (parts_.nozzle.inserting() && overdue(true, jet_.y, jet_.t) > 0) {
-    settle({jet_.t, /*insertion*/ true});
+  if (parts_.nozzle.inserting() && overdue(Kind::insertion, jet_.y, jet_.t) > 0) {
+    settle({jet_.t, Kind::insertion});
     evaluate(jet_);
   }
   under_way_ = true;
@@ -242,6 +247,12 @@ std::optional<typename March<D>::Due> March<D>::located_event(double reach) {
   return due;
 }
 
+/// Beads whose column has come to its end stay there. True if any had to be moved, on whichever rank.
+template <int D>
+bool March<D>::hold_ended() {
+  return parts_.endings.any() && parts_.decomposition.greatest(parts_.endings.hold(jet_.y) ? 1 : 0) > 0;
+}
+
 /// Shows the watchers the solution up to the event, or the whole step, and goes there.
 template <int D>
 void March<D>::commit(std::optional<Due> due) {
@@ -254,10 +265,12 @@ void March<D>::commit(std::optional<Due> due) {
   if (due) {
     jet_.y = segment.at(due->t);  // of which the jet is the beginning
     jet_.t = due->t;
+    hold_ended();
     settle(*due);
   } else {
     std::swap<SolutionPoint<D>>(jet_, next_);
-    if (parts_.events == EventRule::step) changed = look_at_step_end();
+    changed = hold_ended();
+    if (parts_.events == EventRule::step) changed |= look_at_step_end();
   }
   changed |= refine_if_due(released);
   if (changed && jet_.size() > 0) evaluate(jet_);
@@ -302,7 +315,7 @@ void March<D>::insertion() {
   ++effort_.released;
   announce(EventKind::release);
   // fed by flow, the next one is held at once
-  if (overdue(true, jet_.y, jet_.t) >= slack()) placement();
+  if (overdue(Kind::insertion, jet_.y, jet_.t) >= slack()) placement();
 }
 
 template <int D>
@@ -328,12 +341,19 @@ void March<D>::removal() {
 }
 
 template <int D>
+bool March<D>::is_due(Kind kind) const {
+  return overdue(kind, jet_.y, jet_.t) >= slack();
+}
+
+/// A column that has ended asks for nothing but a slope without it.
+template <int D>
 void March<D>::settle(const Due& due) {
-  due.insertion ? insertion() : removal();
+  if (due.kind == Kind::insertion) insertion();
+  if (due.kind == Kind::removal) removal();
   while (jet_.size() > 0) {
-    if (parts_.nozzle.inserting() && overdue(true, jet_.y, jet_.t) >= slack()) {
+    if (parts_.nozzle.inserting() && is_due(Kind::insertion)) {
       insertion();
-    } else if (parts_.collector.removing() && overdue(false, jet_.y, jet_.t) >= slack()) {
+    } else if (parts_.collector.removing() && is_due(Kind::removal)) {
       removal();
     } else {
       break;
@@ -344,8 +364,8 @@ void March<D>::settle(const Due& due) {
 /// True if there was an event.
 template <int D>
 bool March<D>::look_at_step_end() {
-  const bool inserts = parts_.nozzle.inserting() && overdue(true, jet_.y, jet_.t) >= 0;
-  const bool removes = parts_.collector.removing() && overdue(false, jet_.y, jet_.t) > 0;
+  const bool inserts = parts_.nozzle.inserting() && overdue(Kind::insertion, jet_.y, jet_.t) >= 0;
+  const bool removes = parts_.collector.removing() && overdue(Kind::removal, jet_.y, jet_.t) > 0;
   if (inserts) insertion();
   if (removes) removal();
   return inserts || removes;

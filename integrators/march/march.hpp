@@ -1,12 +1,13 @@
 #pragma once
 /// Marches a jet through time and its events.
 ///
-/// Insertion (place, release) and removal are zeros of functions of the state, located on the dense output
-/// (core/jet/dense_output.hpp). Order at one instant: insertion, then removal, then whatever these have made
-/// due, until nothing is, then refinement. The last bead is never removed while beads are inserted; without
-/// insertion the march ends with an empty jet. With EventRule::step both are looked for at the ends of steps
-/// only, at most one of each a step: JETSPIN's way, first order in the step whatever the scheme. No step goes
-/// over the end of a piece of time within which the right-hand side is smooth.
+/// Insertion (place, release), removal and the end of a bead's column are zeros of functions of the state,
+/// located on the dense output (core/jet/dense_output.hpp). Order at one instant: insertion, then removal,
+/// then whatever these have made due, until nothing is, then refinement. The last bead is never removed while
+/// beads are inserted; without insertion the march ends with an empty jet. With EventRule::step both are
+/// looked for at the ends of steps only, at most one of each a step: JETSPIN's way, first order in the step
+/// whatever the scheme. No step goes over the end of a piece of time within which the right-hand side is
+/// smooth.
 ///
 /// Errors: NumericalError names bead, time and likely cause when the state is no longer finite, a step falls
 /// below round-off, or beads of a straight jet have crossed. The watchers have seen everything up to there.
@@ -21,6 +22,7 @@
 #include "core/jet/nozzle.hpp"
 #include "core/jet/observer.hpp"
 #include "core/jet/spacing.hpp"
+#include "integrators/march/endings.hpp"
 #include "integrators/march/forecast.hpp"
 #include "integrators/march/step_control.hpp"
 #include "integrators/schemes/stepper.hpp"
@@ -45,6 +47,7 @@ class March {
     const Collector& collector;
     EventRule events;
     ErrorNorm norm;
+    Endings<D> endings;
     std::vector<Observer<D>*> observers;
     std::function<bool()> stop_here = {};  ///< asked between any two steps: whether to stop there
     Decomposition<D>& decomposition = undivided<D>;
@@ -73,9 +76,10 @@ class March {
   void take_over(Archive& state);
 
  private:
+  enum class Kind { insertion, removal, ending };
   struct Due {
     double t;
-    bool insertion;
+    Kind kind;
   };
 
   bool aims() const { return parts_.control.steps_to_events() && parts_.events == EventRule::located; }
@@ -88,10 +92,10 @@ class March {
   [[noreturn]] void give_up() const;
   double attempt(double end);
   std::optional<Due> located_event(double reach);
-  double overdue(bool insertion, const State<D>& y, double t) const;
-  double overdue(bool insertion, const DenseOutput<D>& segment, double t);
+  double overdue(Kind kind, const State<D>& y, double t) const;
+  double overdue(Kind kind, const DenseOutput<D>& segment, double t);
   std::optional<Due> first_event(const DenseOutput<D>& segment, double reach);
-  double zero(bool insertion, const DenseOutput<D>& segment, double a, double b);
+  double zero(Kind kind, const DenseOutput<D>& segment, double a, double b);
   void commit(std::optional<Due> due);
   void announce(EventKind kind);
   void insertion();
@@ -100,6 +104,8 @@ class March {
   void removal();
   void settle(const Due& due);
   bool look_at_step_end();
+  bool hold_ended();
+  bool is_due(Kind kind) const;
   bool refine_if_due(std::int64_t released_before);
 
   Parts parts_;

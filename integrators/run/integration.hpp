@@ -51,6 +51,7 @@ class Integration {
                .collector = system.collector,
                .events = event_rule(p),
                .norm = ErrorNorm(p, system.columns),
+               .endings = Endings<D>(system.columns),
                .observers = std::move(observers),
                .stop_here = std::move(stop_here),
                .decomposition = system.decomposition,

@@ -113,6 +113,50 @@ std::vector<Extreme> extreme_decks() {
       {"insertion due at the start", "pvp", outrun, as_in_another_scheme("pvp", outrun)}};
 }
 
+/// Each term that a deck may name, far beyond where one would: stiff, fast, or all but absent.
+std::vector<Extreme> extreme_terms() {
+  struct Scene {
+    const char* name;
+    std::vector<std::string> lines;
+    bool stops = false;
+  };
+  const Scene scenes[] = {
+      {"slender elements ten thousand times as stiff",
+       {"model slender", "flow rate 1.735e-2", "elastic modulus 5e8"}},
+      {"a pump that gives a nanolitre a second", {"model slender", "flow rate 1e-6"}},
+      {"a rod of 0.4 mm that resists bending", {"bending yes", "nozzle cross 0.02"}},
+      {"a fibre of 0.4 um in wind",
+       {"airdrag yes", "airdrag model full", "nozzle cross 2e-5", "airdrag airvelocity 100"}},
+      {"random pushes to 100 m/s", {"noise yes", "noise variance 1e8", "noise diffusivity 1e12"}},
+      {"a jet that dries before it leaves",
+       {"evaporation yes", "evaporation polymer frac 0.06", "evaporation diffusivity 1e6"}},
+      {"a jet that has next to no polymer, and dries",
+       {"evaporation yes", "evaporation model vapour", "evaporation polymer frac 1e-3",
+        "evaporation diffusivity 1e3"}},
+      {"FENE-P dumbbells that are all but rigid", {"stress law fene-p", "stress law extensibility 1.81"}},
+      {"an Oldroyd fluid a hundred times as stiff", {"stress law oldroyd-b", "elastic modulus 5e6"}},
+      {"a Giesekus fluid a hundred times as stiff",
+       {"stress law giesekus", "stress law mobility 1", "elastic modulus 5e6"}},
+      {"a Kelvin-Voigt jet like steel", {"stress law kelvin-voigt", "elastic modulus 5e8"}},
+      {"a power-law fluid of index 0.1",
+       {"stress law power-law", "hbfluid consistency 1", "hbfluid index 0.1"}},
+      {"a yield stress no jet reaches",
+       {"stress law herschel-bulkley", "yield stress 1e9", "hbfluid consistency 1", "hbfluid index 0.5"}},
+      {"a capacitor that is full at once", {"field wave rc", "field time 1e-9", "field frequency 1e4"}},
+      {"a needle sharper than an atom", {"field needle 1e-9"}},
+      {"a magnetic field of 100 MT", {"magnetic field 0 0 1e12"}},
+      {"a magnetic field beyond all ends", {"magnetic field 0 1e300 0"}, /*stops*/ true},
+      {"softened charges of thick beads", {"coulomb law softened", "dragvel no", "nozzle cross 0.02"}}};
+  std::vector<Extreme> extremes;
+  for (const Scene& s : scenes) {
+    std::vector<std::string> lines = s.lines;
+    lines.insert(lines.end(), {"final time 0.001", "print time 2e-4"});
+    const auto answer = [&] { return as_in_another_scheme("pvp", lines); };
+    extremes.push_back({s.name, "pvp", lines, s.stops ? std::nullopt : std::make_optional(answer())});
+  }
+  return extremes;
+}
+
 /// What is to be said against the table that a run left, if anything: a broken line, or an end before its
 /// time.
 std::string fault_of_table(const std::filesystem::path& file, double t_end, double interval) {
@@ -164,6 +208,7 @@ void study_extreme_cases(Report& report) {
                             {"case", "what happened", "exit code", "t [s]", "message"});
   auto all = extreme_states();
   std::ranges::move(extreme_decks(), std::back_inserter(all));
+  std::ranges::move(extreme_terms(), std::back_inserter(all));
   for (std::size_t k = 0; k < all.size(); ++k) {
     report.progress("extreme cases", int(k), int(all.size()));
     const Extreme& e = all[k];

@@ -48,8 +48,8 @@ TEST_CASE("The PVP jet is composed of every term") {
   CHECK(terms(scene) == Names{viscoelastic, field, gravity, tension, coulomb});
   CHECK(scene.motion->stress_law().name() == "Maxwell stress");
   CHECK(named(scene.left_out) == Names{"Herschel-Bulkley stress", "slender self-field", "viscous tension",
-                                       "bending", "evaporation", "air drag", "air lift", "friction",
-                                       "random force", "splitting and merging of elements"});
+                                       "bending", "evaporation", "magnetic field", "air drag", "air lift",
+                                       "friction", "random force", "splitting and merging of elements"});
 }
 
 TEST_CASE("The single bead has neither gravity nor surface tension, events or a circling nozzle") {
@@ -57,8 +57,8 @@ TEST_CASE("The single bead has neither gravity nor surface tension, events or a 
   CHECK(terms(scene) == Names{viscoelastic, field, coulomb});
   CHECK(named(scene.composed) == Names{"Maxwell stress", viscoelastic, field, coulomb});
   CHECK(named(scene.left_out) == Names{"Herschel-Bulkley stress", "viscous tension", "evaporation", gravity,
-                                       tension, "bending", "slender self-field", "air drag", "air lift",
-                                       "friction", "random force", "insertion at the nozzle",
+                                       tension, "bending", "slender self-field", "magnetic field", "air drag",
+                                       "air lift", "friction", "random force", "insertion at the nozzle",
                                        "removal at the collector", "circling nozzle", "two rates",
                                        "splitting and merging of elements"});
   CHECK(reason(scene, gravity) == "no gravity yes");
