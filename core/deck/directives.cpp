@@ -210,9 +210,10 @@ const Directive table[] = {
     {.words = "airdrag airvelocity", .member = &P::air_velocity, .unit = "cm/s",
      .meaning = "its velocity along x, below zero towards the nozzle"},
     {.words = "airdrag model", .member = &P::drag_model,
-     .meaning = "drag along the jet and lift, as JETSPIN has them (jetspin), or drag along and across it (full)"},
+     .meaning = "drag along the jet and lift, as JETSPIN has them (jetspin) or as its version 1.20 computed them (jetspin-1.20: drag "
+                "always to the nozzle, 1 cm for the length of an element in the lift), or drag along and across it (full)"},
     {.words = "airdrag lift", .member = &P::airdrag_lift,
-     .meaning = "lift of the air on bends, which drives them farther out", .absent = "yes with model jetspin, no with full"},
+     .meaning = "lift of the air on bends, which drives them farther out", .absent = "no with model full, yes with the others"},
     {.words = "airdrag amplitude", .member = &P::airdrag_amplitude, .check = not_negative,
      .meaning = "of a random force, JETSPIN's"},
     {.words = "noise", .member = &P::noise,

@@ -41,7 +41,8 @@ constexpr Word<ParallelData> parallel_data[] = {{"replicated", ParallelData::rep
 constexpr Word<SelfField> self_fields[] = {{"point", SelfField::point}, {"slender", SelfField::slender}};
 constexpr Word<CoulombLaw> coulomb_laws[] = {{"point", CoulombLaw::point},
                                              {"softened", CoulombLaw::softened}};
-constexpr Word<DragModel> drag_models[] = {{"jetspin", DragModel::jetspin}, {"full", DragModel::full}};
+constexpr Word<DragModel> drag_models[] = {
+    {"jetspin", DragModel::jetspin}, {"jetspin-1.20", DragModel::jetspin_1_20}, {"full", DragModel::full}};
 constexpr Word<StressLawKind> stress_laws[] = {{"maxwell", StressLawKind::maxwell},
                                                {"kelvin-voigt", StressLawKind::kelvin_voigt},
                                                {"oldroyd-b", StressLawKind::oldroyd_b},

@@ -23,7 +23,7 @@ enum class CoulombLaw { point, softened };
 enum class SelfField { point, slender };
 enum class SurfaceModel { paper, energy };
 enum class Wave { constant, sine, square, rc, restart, ramp, table, rotating };
-enum class DragModel { jetspin, full };
+enum class DragModel { jetspin, jetspin_1_20, full };
 enum class Feed { pull, flow };
 enum class Model { paper, slender };
 enum class ParallelData { replicated, distributed, automatic };
@@ -64,7 +64,7 @@ struct AirSetting {
   double air_velocity = 0;       ///< along x, cm/s
   double airdrag_amplitude = 0;  ///< of JETSPIN's random force, see core/jet/noise.hpp
   DragModel drag_model = DragModel::jetspin;
-  std::optional<bool> airdrag_lift;  ///< not given: with the model of JETSPIN only
+  std::optional<bool> airdrag_lift;  ///< not given: with the models of JETSPIN only
 };
 
 /// Random forces (core/jet/noise.hpp).
@@ -167,7 +167,7 @@ inline bool in_air(const Parameters& p) {
   return p.airdrag || p.system == 4;
 }
 inline bool lifts(const Parameters& p) {
-  return in_air(p) && p.airdrag_lift.value_or(p.drag_model == DragModel::jetspin);
+  return in_air(p) && p.airdrag_lift.value_or(p.drag_model != DragModel::full);
 }
 
 /// A random path is not cut within a step: its scheme meets events at step ends.

@@ -272,9 +272,13 @@ class Composer {
     if constexpr (D == 3)
       add(
           lifts(p_), in_air(p_) ? "airdrag lift no" : no_air,
-          [&] { return std::make_unique<AirLift>(air(p_), section()); }, "air lift");
+          [&] { return std::make_unique<AirLift>(air(p_), section(), length_of_lift()); }, "air lift");
     else
       left_out.push_back({"air lift", "a straight jet (system 1) has no curvature"});
+  }
+
+  double length_of_lift() const {
+    return p_.drag_model == DragModel::jetspin_1_20 ? 1 / scales(p_).length : 0;
   }
 
   void add_noise() {

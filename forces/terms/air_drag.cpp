@@ -44,7 +44,7 @@ template <int D>
 Vec<D> AirDrag<D>::force(const Chain<D>& c, int element, const Vec<D>& w) const {
   const Vec<D> t = tangent<D>(c, element);
   const double w_t = w.dot(t), a = radius(c, element), l = 1 / c.inverse_length[element];
-  Vec<D> f = -l * along(gas_, a, std::abs(w_t)).value * w_t * t;
+  Vec<D> f = -l * along(gas_, a, std::abs(w_t)).value * (to_nozzle_ ? std::abs(w_t) : w_t) * t;
   if (full_ && D == 3) {
     const Vec<D> w_n = w - w_t * t;
     f -= l * across(gas_, a, w_n.norm()).value * w_n;
@@ -59,7 +59,8 @@ typename AirDrag<D>::Block AirDrag<D>::force_by_velocity(const Chain<D>& c, int 
                                                          const Vec<D>& w) const {
   const Vec<D> t = tangent<D>(c, element);
   const double w_t = w.dot(t), a = radius(c, element), l = 1 / c.inverse_length[element];
-  Block by_velocity = -l * along(gas_, a, std::abs(w_t)).by_speed() * t * t.transpose();
+  const double sign = to_nozzle_ && w_t < 0 ? -1 : 1;
+  Block by_velocity = -sign * l * along(gas_, a, std::abs(w_t)).by_speed() * t * t.transpose();
   if (full_ && D == 3) {
     const Vec<D> w_n = w - w_t * t;
     const double speed = w_n.norm();
@@ -101,7 +102,8 @@ Vec<3> AirLift::over_squared_speed(const Chain<3>& c, int i) const {
   const double above = c.volume[i] * section_.squared_radius(c.inverse_length[i]),
                below = c.volume[i - 1] * section_.squared_radius(c.inverse_length[i - 1]);
   const double mean_square = (above + below + 2 * std::sqrt(above * below)) / 4;
-  return -gas_.density * std::numbers::pi * mean_square / c.inverse_length[i] * curvature_at(c, i);
+  const double length = length_ > 0 ? length_ : 1 / c.inverse_length[i];
+  return -gas_.density * std::numbers::pi * mean_square * length * curvature_at(c, i);
 }
 
 void AirLift::add(const Chain<3>& c, Rows rows, Acceleration<3>& a) const {

@@ -6,14 +6,17 @@
 ///
 ///     full       bead i bears half of f_i and half of f_{i-1}; the nozzle bears its half of the youngest
 ///     jetspin    bead i bears f_i, drag along the jet only
+///     jetspin-1.20    the same, with |w_t| for w_t, and 1 cm for the l_i of the lift: neither is a property
+///     of
+///                air, but with both its authors' record of a jet in counter-flow is met
 ///
 ///   lift of a bend        f_i = - l_i rho w_t^2 pi ((a_i + a_{i-1}) / 2)^2 k c_i
 ///
 /// k the curvature and c_i the unit vector to its centre: the air around a bend drives it farther out, as
 /// surface tension (forces/terms/surface_tension.hpp) pulls it in. Both read the velocity of the bead alone.
 /// JETSPIN's drag points to the nozzle whatever the sign of w_t and takes the nozzle's radius for that of a
-/// drop; here it is odd in w. Source: JETSPIN 1.21, `airdrag`; cross-flow drag of thin bodies in
-/// the sense of G. I. Taylor, Proc. R. Soc. A 214 (1952) 158.
+/// drop; here it is odd in w. The group that 1.20 prints for the lift is one L_0 short. Source: JETSPIN 1.21,
+/// `airdrag`; cross-flow drag of thin bodies in the sense of G. I. Taylor, Proc. R. Soc. A 214 (1952) 158.
 
 #include "core/jet/gas.hpp"
 #include "core/jet/parameters.hpp"
@@ -26,7 +29,10 @@ template <int D>
 class AirDrag final : public ForceTerm<D> {
  public:
   AirDrag(const Gas& gas, const Section& section, DragModel model)
-      : gas_(gas), section_(section), full_(model == DragModel::full) {}
+      : gas_(gas),
+        section_(section),
+        full_(model == DragModel::full),
+        to_nozzle_(model == DragModel::jetspin_1_20) {}
   std::string_view name() const override { return full_ ? "air drag" : "air drag along the jet"; }
   void add(const Chain<D>& c, Rows rows, Acceleration<D>& a) const override;
   void differentiate(const Chain<D>& c, LocalJacobian<D>& J) const override;
@@ -41,12 +47,14 @@ class AirDrag final : public ForceTerm<D> {
 
   Gas gas_;
   Section section_;
-  bool full_;
+  bool full_, to_nozzle_;
 };
 
 class AirLift final : public ForceTerm<3> {
  public:
-  AirLift(const Gas& gas, const Section& section) : gas_(gas), section_(section) {}
+  /// `length` stands for that of every element; 0: each has its own.
+  AirLift(const Gas& gas, const Section& section, double length = 0)
+      : gas_(gas), section_(section), length_(length) {}
   std::string_view name() const override { return "air lift"; }
   void add(const Chain<3>& c, Rows rows, Acceleration<3>& a) const override;
   void differentiate(const Chain<3>& c, LocalJacobian<3>& J) const override;
@@ -57,6 +65,7 @@ class AirLift final : public ForceTerm<3> {
 
   Gas gas_;
   Section section_;
+  double length_;
 };
 
 }  // namespace treejet

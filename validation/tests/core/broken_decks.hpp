@@ -171,7 +171,7 @@ inline const std::vector<Broken> broken_decks = {
     {"system 3", "system 1\nperturb yes\nperturb freq 1.d4\nperturb ampl 1.d-3", {"perturb yes: expected no in system 1"}, "perturb yes"},
     {"system 3", "system 4\nairdrag no", {"system 4: expected airdrag yes, which system 4 means, or system 3"}, "system 4"},
     {"", "airdrag airdensity 0.", {"airdrag airdensity", "positive"}},
-    {"", "airdrag model stokes", {"airdrag model: expected jetspin|full, found 'stokes'"}},
+    {"", "airdrag model stokes", {"airdrag model: expected jetspin|jetspin-1.20|full, found 'stokes'"}},
     {"system 3", "system 1\nairdrag yes\nairdrag lift yes", {"airdrag lift yes: expected no in system 1"}, "airdrag lift yes"},
     {"", "external potential type 1", {"field wave 1: expected field frequency to be given, too"}},
     {"", "field wave ramp", {"field wave ramp: expected field time to be given, too"}},

@@ -154,10 +154,41 @@ TEST_CASE("Lift drives a bead on a circle outwards by rho w^2 pi a^2 / R on its 
   CHECK((a - expected * outwards).norm() < 1e-12 * expected);  // round-off of a curvature, R / l times 1e-16
 }
 
+TEST_CASE(
+    "As JETSPIN 1.20 computes it, drag points to the nozzle whichever way the wind blows, and 1 cm is "
+    "lifted") {
+  const Gas gas{0.3, 0.2, 0};
+  const auto of_model = [&](DragModel model, double sign) {
+    auto jet = crooked();
+    jet.y.middleCols<3>(3) *= sign;
+    auto f = equations<3>(plain_parameters(), AirDrag<3>(gas, thin, model));
+    return accelerations(f, jet);
+  };
+  const auto odd = of_model(DragModel::jetspin, 1), theirs = of_model(DragModel::jetspin_1_20, 1);
+  CHECK((odd.abs() == theirs.abs()).all());
+  CHECK((of_model(DragModel::jetspin_1_20, -1) == theirs).all());
+  const Chain<3> chain = chain_of<3>(crooked(), Nozzle<3>(plain_parameters()));
+  int turned = 0;
+  for (Eigen::Index i = 0; i < theirs.rows(); ++i) {
+    const double along = theirs.row(i).matrix().dot(chain.tangent.row(i).matrix());
+    CHECK(along < 0);
+    turned += odd.row(i).matrix().dot(chain.tangent.row(i).matrix()) > 0;
+  }
+  CHECK(turned > 0);  // some beads of the crooked jet move towards the nozzle along it
+
+  auto lift = equations<3>(plain_parameters(), AirLift(gas, thin)),
+       of_length = equations<3>(plain_parameters(), AirLift(gas, thin, 3.5));
+  const auto own = accelerations(lift, crooked()), given = accelerations(of_length, crooked());
+  const Eigen::Index inner = 1;  // which has an element on either side
+  CHECK(own.row(inner).abs().maxCoeff() > 0);
+  CHECK((given.row(inner) - 3.5 * chain.inverse_length[inner] * own.row(inner)).abs().maxCoeff() <
+        1e-14 * given.row(inner).abs().maxCoeff());
+}
+
 TEST_CASE("The derivatives of drag and lift by the velocity are those of differences") {
   const Gas gas{0.3, 0.2, -0.7};
   // central differences err by h^2 = 1e-10 times third derivatives of order 10, and by round-off / h = 1e-11
-  for (const DragModel model : {DragModel::jetspin, DragModel::full}) {
+  for (const DragModel model : {DragModel::jetspin, DragModel::jetspin_1_20, DragModel::full}) {
     auto f = equations<3>(plain_parameters(), AirDrag<3>(gas, thin, model), AirLift(gas, thin));
     CHECK(error_of_derivative<3>(f, crooked()) < 1e-8);
     auto straight = equations<1>(plain_parameters(), AirDrag<1>(gas, thin, model));

@@ -34,6 +34,18 @@ Jet<3> free_beads(int n, double v) {
   return jet;
 }
 
+/// Steps of SRA1 from where the jet is.
+void white_steps(const Noise& noise, EquationsOfMotion<3>& f, Jet<3>& jet, double h, int steps) {
+  Sra1<3> scheme(noise, wiener_path(noise.seed));
+  State<3> next;
+  for (int k = 0; k < steps; ++k) {
+    jet.slope = slope(f, jet);
+    scheme.step(f, jet, jet, h, next);
+    jet.t += h;
+    jet.y = next;
+  }
+}
+
 /// A path of many components known at fine steps, whose increments over longer ones are sums.
 class FinePath {
  public:
@@ -123,16 +135,37 @@ TEST_CASE("Beads with friction and noise are an Ornstein-Uhlenbeck process, by e
   SECTION("by white noise") {
     auto f = equations<3>(plain_parameters(), Friction<3>(g));
     auto jet = free_beads(n, v0);
-    Sra1<3> scheme(noise, wiener_path(noise.seed));
     constexpr int steps = 26;
-    State<3> next;
-    for (int k = 0; k < steps; ++k) {
-      jet.slope = slope(f, jet);
-      scheme.step(f, jet, jet, t / steps, next);
-      jet.t += t / steps;
-      jet.y = next;
-    }
+    white_steps(noise, f, jet, t / steps, steps);
     check(jet.y);
+  }
+}
+
+TEST_CASE(
+    "White noise by SRA1 gives beads with friction the variance that is known of its steps, of weak order "
+    "2") {
+  // A step of x = g h takes v to (1 - x + x^2/2) v and adds  b (dW - x Z / h)  of variance  2 D h (1 - x +
+  // x^2/3) ; where all is forgotten  variance g / D = (1 - x + x^2/3) / (1 - x + x^2/2 - x^3/8) = 1 - x^2/6 +
+  // O(x^3)
+  const auto on_paper = [](double x) { return (1 - x + x * x / 3) / (1 - x + x * x / 2 - x * x * x / 8); };
+  CHECK((1 - on_paper(0.02)) / (1 - on_paper(0.01)) == Approx(4).epsilon(0.02));  // its x^3 is 1 % of x^2
+  const double g = 0.8, D = 0.5;
+  Noise noise;
+  noise.diffusivity = D;
+  noise.friction = g;
+  noise.seed = 11;
+  for (const double x : {1.0, 0.5}) {
+    auto f = equations<3>(plain_parameters(), Friction<3>(g));
+    auto jet = free_beads(4096, 0);
+    constexpr int samples = 12;
+    double sum = 0;
+    for (int k = 0; k < samples; ++k) {
+      white_steps(noise, f, jet, x / g, 10);  // after which a hundredth or less of v is left
+      sum += moments(jet.y).variance * g / D;
+    }
+    // three standard errors
+    CHECK(sum / samples == Approx(on_paper(x)).epsilon(3 * std::sqrt(2. / (3 * 4096 * samples))));
+    CHECK(on_paper(x) < 1 - x * x / 25);  // which is far from the variance of the process
   }
 }
 
