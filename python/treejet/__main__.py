@@ -135,7 +135,8 @@ def sweep(options: argparse.Namespace) -> int:
     points = sweep(options.deck, vary, options.out, options.jobs, lambda line: print(line, flush=True), options.only)
     if options.only is not None:
         return points[0].exit_code
-    for path in (options.out / "sweep.csv", sweep_plot.draw(points, options.out / "sweep.png")):
+    seeds = options.out / "seeds.csv"
+    for path in (options.out / "sweep.csv", seeds if seeds.exists() else None, sweep_plot.draw(points, options.out / "sweep.png")):
         if path:
             print(f"wrote {path}")
     failed = [point for point in points if point.exit_code]

@@ -2,7 +2,7 @@
 
 A grid is the product of what is varied; a list comes from a CSV file whose header names directives. DIR/sweep.json
 holds deck and points; DIR/001, 002, ... the runs; DIR/sweep.csv the steady means of each with their standard errors
-(means.py); DIR/sweep.png draws them. A sweep that was interrupted goes on: finished points are left alone, stopped ones
+(means.py), where `seed` is varied DIR/seeds.csv those over all seeds (ensemble.py); DIR/sweep.png draws them. A sweep that was interrupted goes on: finished points are left alone, stopped ones
 resumed. A point that fails is in the table with its exit code and message and ends no other.
 
 >>> varied("external potential: 6 kV .. 14 kV / 5")
@@ -31,6 +31,7 @@ from typing import Callable, Optional, Union
 import numpy as np
 
 from . import program, units
+from .ensemble import SEED, write_ensembles
 from .errors import FileError, InputError, TreejetError
 from .means import SteadyMean, steady_means
 from .read import Run, read
@@ -167,6 +168,8 @@ def sweep(deck: Union[str, "os.PathLike[str]"],
             raise
     if only is None:
         write_table(place / "sweep.csv", points)
+        if points and SEED in points[0].values:
+            write_ensembles(place / "seeds.csv", points)
     return points
 
 

@@ -5,6 +5,7 @@
 
 #include "core/jet/stiffness.hpp"
 #include "forces/terms/air_drag.hpp"
+#include "forces/terms/gravity.hpp"
 #include "validation/support/run.hpp"
 #include "validation/support/scenes.hpp"
 
@@ -85,6 +86,21 @@ TEST_CASE("Drag along a jet that grows in length slows it down as energy tells")
     // 300 steps of order 4 or more: h^4 times derivatives of order 1
     CHECK(conserved(jet) == Approx(before).epsilon(1e-8));
   }
+}
+
+TEST_CASE("A jet that falls along itself stops to speed up at (m g / C)^(1/1.19)") {
+  const Gas gas{0.3, 0.2, 0};
+  const double g = 0.4, l = 2.5;
+  const double C = 0.65 * pi * gas.density * std::pow(2 / gas.viscosity, -0.81) *
+                   std::pow(thin.radius, 0.19) * std::pow(l, 0.905);
+  auto f = equations<1>(plain_parameters(), AirDrag<1>(gas, thin, DragModel::jetspin), Gravity<1>(g));
+  const auto acceleration = [&](double v) {
+    return slope(f, jet_of<1>({bead_at(1 + l, v), bead_at(1, v)}))(0, 1);
+  };
+  const double terminal = std::pow(g / C, 1 / 1.19);
+  CHECK(std::abs(acceleration(terminal)) < 1e-13 * g);  // round-off of powers
+  CHECK(acceleration(0.9 * terminal) > 0.1 * g);
+  CHECK(acceleration(1.1 * terminal) < -0.1 * g);
 }
 
 TEST_CASE("A cylinder that falls broadside feels the drag that Sucker and Brauer have measured") {

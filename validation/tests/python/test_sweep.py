@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import signal
+import statistics
 import subprocess
 import time
 
@@ -38,6 +39,23 @@ def test_a_grid_gives_the_runs_one_would_make_by_hand(quick, tmp_path):
         assert float(row["vc[cm/s]"]) == point.means["vc"].mean
     # a stronger field draws a faster jet
     assert float(rows[2]["vc[cm/s]"]) > float(rows[0]["vc[cm/s]"])
+
+
+def test_seeds_of_a_noisy_jet_give_a_mean_and_a_spread_and_without_noise_no_spread(quick, tmp_path):
+    text = quick.read_text().replace("removing yes", "removing yes\nnoise yes\nnoise diffusivity 1.d4\nnoise variance 1.d2\nseed 1")
+    noisy = tmp_path / "noisy.dat"
+    noisy.write_text(text)
+    points = treejet.sweep(noisy, {"viscosity": [10, 20], "seed": [1, 2, 3]}, tmp_path / "seeds", jobs=2)
+    with open(tmp_path / "seeds" / "seeds.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["viscosity"] for row in rows] == ["10", "20"] and all(row["seeds"] == "3" for row in rows)
+    of_seeds = [p.means["vc"].mean for p in points[:3]]
+    assert float(rows[0]["vc[cm/s]"]) == pytest.approx(sum(of_seeds) / 3, rel=1e-14)
+    assert float(rows[0]["spread of vc"]) == pytest.approx(statistics.stdev(of_seeds), rel=1e-10) and len(set(of_seeds)) == 3
+    assert float(rows[0]["error of vc"]) == pytest.approx(float(rows[0]["spread of vc"]) / 3 ** 0.5, rel=1e-14)
+    treejet.sweep(quick, {"seed": [1, 2]}, tmp_path / "calm")
+    with open(tmp_path / "calm" / "seeds.csv", newline="") as file:
+        assert float(list(csv.DictReader(file))[0]["spread of vc"]) == 0
 
 
 def test_a_point_that_fails_ends_no_other_and_tells_why(quick, tmp_path):
