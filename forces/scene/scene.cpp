@@ -132,7 +132,7 @@ class Composer {
     add(
         p_.self_field == SelfField::slender && g_.Q != 0,
         g_.Q == 0 ? "density charge is 0" : "self field point",
-        [&] { return std::make_unique<SlenderSelfField<D>>(g_.Q, section(), p_.refinement); },
+        [&] { return std::make_unique<SlenderSelfField<D>>(g_.Q, section(), p_.refinement, drying(p_)); },
         "slender self-field");
     add_air();
     add_noise();

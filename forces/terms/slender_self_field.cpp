@@ -92,11 +92,17 @@ double lack_of_growing(double V) {
 
 }  // namespace
 
-/// Q_e^2 / V_e^2 = Q c_i c_up; the nozzle continues the jet with its charge over mass, 1.
+/// Of the volume that element i had as it left the nozzle; the nozzle itself is fresh.
+template <int D>
+double SlenderSelfField<D>::left(const Chain<D>& c, int i) const {
+  return drying_ && i < c.beads ? drying_->remaining(c.column(0)[i]) : 1;
+}
+
+/// Q_e^2 / V_e^2 = Q c_i c_up nu_up / nu_e; the nozzle continues the jet with its charge over mass, 1.
 template <int D>
 double SlenderSelfField<D>::charges(const Chain<D>& c, int i) const {
   const double up = i + 1 < c.beads ? c.point_charge[i + 1] * c.inverse_mass[i + 1] : 1;
-  return Q_ * c.point_charge[i] * c.inverse_mass[i] * up;
+  return Q_ * c.point_charge[i] * c.inverse_mass[i] * up * left(c, i + 1) / left(c, i);
 }
 
 template <int D>
@@ -135,6 +141,8 @@ void SlenderSelfField<D>::add(const Chain<D>& c, Rows rows, Acceleration<D>& a) 
         const double line = c.volume[element + k] * c.inverse_length[element + k];
         to[k] += charges(c, element + k) * line * line * joints_[element + k];
       }
+    if (drying_)
+      for (int k = 0; k < count - youngest; ++k) to[k] *= left(c, element + k + 1) / left(c, element + k);
     if (youngest) to[count - 1] = tension_of_youngest(c);
     const auto t = columns<D>(c.tangent);
     const int between = std::max(first, 1);
@@ -159,16 +167,18 @@ Answer answer(Section section, double V, double l, double joint) {
           line * line / l * (stiffness_factor(g) - 2 * joint)};
 }
 
-/// Of the youngest element, of length d, by d.
+/// Of the youngest element, of length d, by d. `left`: of the volume that has been fed.
 template <int D>
-Answer of_youngest(const Chain<D>& c, Section section, double joint) {
+Answer of_youngest(const Chain<D>& c, Section section, double joint, double left) {
   const int i = c.beads - 1;
   const double V = c.volume[i], d = 1 / c.inverse_length[i];
   if (c.held_mass > 0) {
-    // dU/dd of V elements in a row is that of one of them
-    const Answer one = answer(section, 1, d / V, joint);
-    const double lack = lack_of_growing(V) * V * V / d;
-    return {V * one.energy - lack, one.tension + lack / d, one.stiffness / V - 2 * lack / (d * d)};
+    // dU/dd of as many elements in a row is that of one of them
+    const double elements = V / left;
+    const Answer one = answer(section, left, d / elements, joint);
+    const double lack = lack_of_growing(elements) * V * V / d;
+    return {elements * one.energy - lack, one.tension + lack / d,
+            one.stiffness / elements - 2 * lack / (d * d)};
   }
   const Answer whole = answer(section, V, d, joint);
   const double s = c.holds_bead() ? c.point_charge[c.beads] : 0;
@@ -182,8 +192,8 @@ Answer of_youngest(const Chain<D>& c, Section section, double joint) {
 }
 
 template <int D>
-Answer of_element(const Chain<D>& c, int i, Section section, double joint) {
-  return i + 1 == c.beads ? of_youngest(c, section, joint)
+Answer of_element(const Chain<D>& c, int i, Section section, double joint, double left) {
+  return i + 1 == c.beads ? of_youngest(c, section, joint, left)
                           : answer(section, c.volume[i], 1 / c.inverse_length[i], joint);
 }
 
@@ -191,14 +201,15 @@ Answer of_element(const Chain<D>& c, int i, Section section, double joint) {
 
 template <int D>
 double SlenderSelfField<D>::tension_of_youngest(const Chain<D>& c) const {
-  return charges(c, c.beads - 1) * of_youngest(c, section_, uneven_ ? joints_[c.beads - 1] : 0).tension;
+  return charges(c, c.beads - 1) *
+         of_youngest(c, section_, uneven_ ? joints_[c.beads - 1] : 0, left(c, c.beads - 1)).tension;
 }
 
 /// T t has the derivative  T' t t' + T / l (1 - t t')  by d.
 template <int D>
 void SlenderSelfField<D>::differentiate(const Chain<D>& c, LocalJacobian<D>& J) const {
   for (int i = 0; i < c.beads; ++i) {
-    const Answer T = of_element(c, i, section_, uneven_ ? joints_[i] : 0);
+    const Answer T = of_element(c, i, section_, uneven_ ? joints_[i] : 0, left(c, i));
     using Block = Eigen::Matrix<double, D, D>;
     const Vec<D> t = c.tangent.row(i).matrix().transpose();
     const Block along = t * t.transpose();
@@ -212,7 +223,8 @@ double SlenderSelfField<D>::energy(const Chain<D>& c) const {
   double sum = 0;
   const Eigen::ArrayXd joints =
       uneven_ ? joints_between(c.volume) : Eigen::ArrayXd(Eigen::ArrayXd::Zero(c.beads));
-  for (int i = 0; i < c.beads; ++i) sum += charges(c, i) * of_element(c, i, section_, joints[i]).energy;
+  for (int i = 0; i < c.beads; ++i)
+    sum += charges(c, i) * of_element(c, i, section_, joints[i], left(c, i)).energy;
   return sum;
 }
 

@@ -19,6 +19,10 @@
 ///   - While a bead is held with charge s, the youngest element, of length d, has (1 - s) T(d) + s T(d -
 ///   l_step).
 ///
+///   - An element that dries (core/jet/evaporation.hpp) keeps its charge: with nu left of its volume, and of
+///   the
+///     mass of its beads, Q_e = V_e sqrt(c_i c_up nu_up / nu_e), where the nozzle's nu is 1.
+///
 ///   - Where elements of unequal volume meet, which refinement brings about: g is less, and the 3/2 - g of
 ///   the
 ///     tension more, by c_e of joints.hpp.
@@ -29,6 +33,7 @@
 /// Sources: slender-body theory; the electric pressure as in Hohman, Shin, Rutledge and Brenner, Phys. Fluids
 /// 13 (2001) 2201.
 
+#include "core/jet/evaporation.hpp"
 #include "forces/terms/section.hpp"
 #include "forces/terms/term.hpp"
 
@@ -38,9 +43,10 @@ template <int D>
 class SlenderSelfField final : public ForceTerm<D> {
  public:
   /// Q: the Coulomb term's group. `uneven`: elements of unequal volume may meet; then the chain must be
-  /// whole.
-  SlenderSelfField(double Q, Section section, bool uneven = false)
-      : Q_(Q), section_(section), uneven_(uneven) {}
+  /// whole. `drying`: the first added column is the solvent; not with `uneven`.
+  SlenderSelfField(double Q, Section section, bool uneven = false,
+                   const std::optional<Evaporation>& drying = {})
+      : Q_(Q), section_(section), uneven_(uneven), drying_(drying) {}
   std::string_view name() const override { return "slender self-field"; }
   void prepare(const Chain<D>& c, Rows rows, Threads threads) override;
   void add(const Chain<D>& c, Rows rows, Acceleration<D>& a) const override;
@@ -50,12 +56,14 @@ class SlenderSelfField final : public ForceTerm<D> {
   double energy(const Chain<D>& c) const;
 
  private:
+  double left(const Chain<D>& c, int element) const;
   double charges(const Chain<D>& c, int element) const;
   double tension_of_youngest(const Chain<D>& c) const;
 
   double Q_;
   Section section_;
   bool uneven_;
+  std::optional<Evaporation> drying_;
   Eigen::ArrayXd volume_, joints_;  ///< of the elements but the youngest; of all, what follows from it
 };
 
