@@ -61,8 +61,9 @@ std::string claim(const Case& c, Key key) {
 /// Within the recorded range, or beyond it by a part: their steps, removal and noise are not ours.
 void judge(const Case& c, const std::vector<double>& found, double beyond, Report& report) {
   for (const Record& r : c.records)
-    report.check(claim(c, r.key) + fmt::format(", recorded {:.4g} to {:.4g}", r.low, r.high), found[r.key],
-                 r.low * (1 - beyond), r.high * (1 + beyond));
+    report.compare(claim(c, r.key), found[r.key],
+                   {(r.low + r.high) / 2, (r.high - r.low) / 2 + beyond * r.high,
+                    fmt::format("recorded: {:.4g} to {:.4g}", r.low, r.high)});
 }
 
 void add_row(const Case& c, const std::vector<double>& found, ResultTable& table) {

@@ -60,8 +60,8 @@ void study_single_bead(Report& report) {
     table.row({last.t, last.x, last.v, x, v});
   }
   // a value that lies at a half is printed either way, and the deck's charge density has nine digits
-  report.check("greatest difference from the 100 published rows, in half units of their tenth digit", worst,
-               0, 1.1);
+  report.compare("greatest difference from the 100 published rows, in half units of their tenth digit", worst,
+                 {0, 1.1, "JETSPIN's published rows"});
 
   const Instant q = quasi_stationary(p);
   auto points = report.table("case1_stationary", "The quasi-stationary point",

@@ -94,11 +94,8 @@ class StiffnessStudy {
       report_.progress("stable steps", int(k), int(cases_.size()));
       const Case& c = cases_[k];
       std::vector<Cell> row{c.name, scales(c.p).time, std::int64_t(truths_[k].position.rows())};
-      for (const Scheme s : fixed_step_schemes) {
-        const double step = largest_stable_step(c, s, truths_[k], report_.quick ? 4e4 : 1e6);
-        row.push_back(step);
-        report_.check(fmt::format("{}, {}: there is a stable step, s", c.name, name(s)), step, 1e-12, 1);
-      }
+      for (const Scheme s : fixed_step_schemes)
+        row.push_back(largest_stable_step(c, s, truths_[k], report_.quick ? 4e4 : 1e6));
       table.row(row);
     }
   }

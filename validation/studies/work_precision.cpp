@@ -157,8 +157,10 @@ class WorkPrecision {
     orders_.push_back({c.name, name(method), double(expected), found, std::int64_t(points.size())});
     const double allowed = std::max(0.15, std::min(2 * found.standard_error, 0.4));
     // above the nominal order it is the next term of the error that still shows, one power of the step higher
-    report_.check(fmt::format("{}, {}: order", c.name, name(method)), found.exponent, expected - allowed,
-                  expected + std::max(allowed, 0.3));
+    report_.compare(fmt::format("{}, {}: order", c.name, name(method)), found.exponent,
+                    ClosedAnswer{double(expected), expected - allowed, expected + std::max(allowed, 0.3),
+                                 events == EventRule::step ? "first order, as events are up to a step late"
+                                                           : "the order of the scheme"});
   }
 
   /// In the limit of short steps the error is proportional to the tolerance: both fall as step^order. At
@@ -179,8 +181,9 @@ class WorkPrecision {
     const auto what = fmt::format("{}, {}: ", c.name, name(method));
     const PowerLaw found = power_law(points);
     tolerances_.push_back({c.name, name(method), 1., found, std::int64_t(points.size())});
-    report_.check(what + "exponent of error against tolerance over six decades", found.exponent, 0.5,
-                  1 + 1.5 / stepper<1>(scheme)->order());
+    report_.compare(
+        what + "exponent of error against tolerance over six decades", found.exponent,
+        ClosedAnswer{1, 0.5, 1 + 1.5 / stepper<1>(scheme)->order(), "the error goes with the tolerance"});
     report_.check(what + "error at a tenth of the tolerance over error, at the worst", worst_rise, 0, 2);
   }
 

@@ -81,6 +81,10 @@ void Report::compare(const std::string& claim, double found, const Elsewhere& e)
   add({"", claim, found, e.value - e.allowed, e.value + e.allowed, e.value, e.source, false});
 }
 
+void Report::compare(const std::string& claim, double found, const ClosedAnswer& a) {
+  add({"", claim, found, a.low, a.high, a.value, a.theory, false});
+}
+
 void Report::differs(const std::string& claim, double found, const Difference& d) {
   add({"", claim, found, d.low, d.high, d.elsewhere, d.explanation, true});
 }

@@ -46,6 +46,12 @@ struct Elsewhere {
   std::string source;
 };
 
+/// What theory says, in closed form, and between what bounds a computation of it lies for a reason.
+struct ClosedAnswer {
+  double value, low, high;
+  std::string theory;
+};
+
 /// Not as elsewhere, and it is known why: the explanation foretells a value in [low, high], and fails with
 /// it.
 struct Difference {
@@ -69,6 +75,7 @@ class Report {
   /// A claim holds if `found` is in [low, high]; a NaN never is.
   void check(const std::string& claim, double found, double low, double high);
   void compare(const std::string& claim, double found, const Elsewhere& elsewhere);
+  void compare(const std::string& claim, double found, const ClosedAnswer& answer);
   void differs(const std::string& claim, double found, const Difference& difference);
   /// What there is to judge, and why it is not.
   void not_judged(const std::string& claim, const std::string& why);
