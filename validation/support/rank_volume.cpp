@@ -45,7 +45,7 @@ std::vector<RankTraffic> traffic_of(int ranks, const std::function<PointSet(int 
   Cells::Spread all{};
   for (int k = 0; k < ranks; ++k) {
     const Cells::Spread own = trees.emplace_back(points(k), shape).spread();
-    all.sum += own.sum, all.leaves += own.leaves;
+    all.sum += own.sum, all.points += own.points;
   }
   const EssentialTree others(ranks);
   std::vector<EssentialTree::Message> summaries;

@@ -98,13 +98,17 @@ void Cells::enclose(const CellPoints& points, Reach reach, Threads threads) {
 
 Cells::Spread Cells::spread() const {
   Spread all;
-  for (int k = level(levels() - 1).first; k < size(); ++k)
-    if (spread_[index(k)] < widest_spread) all.sum += spread_[index(k)], ++all.leaves;
+  for (int k = 0; k < leaves(); ++k) {
+    const double spread = spread_[index(size() - leaves() + k)];
+    const int points = leaf_points(k).size();
+    // of a single point the radius is what rounding has left of 0
+    if (points > 1 && spread < widest_spread) all.sum += points * spread, all.points += points;
+  }
   return all;
 }
 
 void Cells::equalise_errors(int order, double opening, const Spread& among, Threads threads) {
-  const double mean = among.leaves > 0 ? among.sum / among.leaves : 0;
+  const double mean = among.points > 0 ? among.sum / among.points : 0;
   for_each_block(threads, {0, size()}, 512, [&](Rows cells) {
     for (int k = cells.first; k < cells.last; ++k) {
       const double inverse_u = std::exp2((mean - spread_[index(k)]) / (order + 2));

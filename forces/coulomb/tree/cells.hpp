@@ -19,7 +19,7 @@
 /// errs, in the field of a like cell at the ratio u = 2 r / |c_A - c_B|, by about Q / (2r)^2 u^(p+2): much
 /// more where points crowd than where they are strewn. `equalise_errors` makes all cells err alike:
 ///
-///     R = r / u,   u^(p+2) = ((2r)^2 / Q) / (its geometric mean over the leaves) ,
+///     R = r / u,   u^(p+2) = ((2r)^2 / Q) / (its geometric mean over the points) ,
 ///
 /// but never so far down that the balls of far cells could fill more than `clearance` of their distance.
 /// Source: Dehnen, J. Comput. Phys. 179 (2002) 27, where for the same reason the opening depends on the mass
@@ -66,9 +66,10 @@ class Cells {
   using Reach = double (*)(const CellPoints& points, const double* centre);
   void enclose(const CellPoints& points, Reach reach, Threads threads);
 
-  /// Of log2((2r)^2 / Q) over the leaves that have extent and charge.
+  /// Of log2((2r)^2 / Q) over the points of leaves that have extent and charge: the last leaf, which may hold
+  /// two points close together, counts as what it holds.
   struct Spread {
-    double sum = 0, leaves = 0;
+    double sum = 0, points = 0;
   };
   Spread spread() const;
   static constexpr double clearance = 0.8;

@@ -83,7 +83,7 @@ void TreeField::reshape(int order, double opening, Threads threads) {
 void TreeField::equalise_errors(Threads threads) {
   if (!shape_.even) return;
   const Cells::Spread own = tree_.cells.spread();
-  double all[] = {own.sum, own.leaves};
+  double all[] = {own.sum, own.points};
   ranks_.subdomains.sum(all);
   tree_.cells.equalise_errors(shape_.order, shape_.opening, {all[0], all[1]}, threads);
 }
