@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/io/frame_writer.hpp"
+#include "core/io/xml_text.hpp"
 
 namespace treejet {
 
@@ -14,38 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// XML's own characters do not stand in a comment of ours, but two hyphens might.
-std::string comment(std::string text) {
-  for (auto at = text.find("--"); at != std::string::npos; at = text.find("--")) text.erase(at, 1);
-  return fmt::format("<?xml version=\"1.0\"?>\n<!-- {} -->\n", text);
-}
-
-/// As the value of an attribute.
-std::string escaped(std::string_view text) {
-  std::string all;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        all += "&amp;";
-        break;
-      case '<':
-        all += "&lt;";
-        break;
-      case '"':
-        all += "&quot;";
-        break;
-      default:
-        all += c;
-    }
-  }
-  return all;
+std::string head(const std::string& made_by) {
+  return fmt::format("<?xml version=\"1.0\"?>\n{}\n", xml_comment(made_by));
 }
 
 template <class T>
 std::string array(const std::string& name, int components, const std::vector<T>& values) {
   return fmt::format(
       "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n{}\n</DataArray>\n",
-      std::is_integral_v<T> ? "Int64" : "Float64", name, components, fmt::join(values, " "));
+      std::is_integral_v<T> ? "Int64" : "Float64", xml_text(name), components, fmt::join(values, " "));
 }
 
 class Vtp final : public FrameWriter {
@@ -59,13 +37,13 @@ class Vtp final : public FrameWriter {
     const std::string name = fmt::format("{:06}.vtp", f.step);
     OutputFile(folder_ / name, setting_.existing).write(text(f));
     entries_ += fmt::format("<DataSet timestep=\"{}\" file=\"{}/{}\"/>\n", f.time,
-                            escaped(folder_.filename().string()), name);
+                            xml_text(folder_.filename().string()), name);
   }
 
   void finish() override {
     series_.write(fmt::format(
         "{}<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n{}</Collection>\n</VTKFile>\n",
-        comment(setting_.made_by), entries_));
+        head(setting_.made_by), entries_));
   }
 
  private:
@@ -73,7 +51,7 @@ class Vtp final : public FrameWriter {
     std::vector<std::int64_t> chain(f.points());
     std::iota(chain.begin(), chain.end(), 0);
     const auto end = static_cast<std::int64_t>(f.points());
-    std::string text = comment(setting_.made_by);
+    std::string text = head(setting_.made_by);
     const auto out = std::back_inserter(text);
     fmt::format_to(
         out,

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/io/frame.hpp"
+#include "core/io/xml_text.hpp"
 
 namespace treejet {
 
@@ -26,7 +27,7 @@ std::string selection(const Place& at, std::uint64_t points, const std::string& 
       "<DataItem Dimensions=\"{6} {7}{1}\" {8} Precision=\"8\" Format=\"HDF\">{9}:/particles/jet/{10}/value"
       "</DataItem></DataItem>",
       points, last, vector ? 3 : 2, at.frame, vector ? " 0" : "", vector ? " 1" : "", at.frames, at.width,
-      type, at.file, name);
+      type, xml_text(at.file), xml_text(name));
 }
 
 constexpr const char *real = "NumberType=\"Float\"", *integer = "NumberType=\"Int\"";
@@ -51,7 +52,7 @@ std::string Xdmf::text(const std::string& hdf5_name, std::uint64_t width, const 
       else
         fmt::format_to(out,
                        "<Attribute Name=\"{} [{}]\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n",
-                       name, unit, components > 1 ? "Vector" : "Scalar", values);
+                       xml_text(name), xml_text(unit), components > 1 ? "Vector" : "Scalar", values);
     }
     fmt::format_to(
         out, "<Attribute Name=\"id\" AttributeType=\"Scalar\" Center=\"Node\">{}</Attribute>\n</Grid>\n",
