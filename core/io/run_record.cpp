@@ -129,7 +129,11 @@ void record_errors(const fs::path& directory, const std::string& against,
                    const std::vector<ErrorOfObservable>& errors) {
   Json record = read_record(directory / run_record_name), observables = Json::object();
   for (const ErrorOfObservable& e : errors)
-    observables[e.label] = {{"row", e.of_a_row}, {"mean", e.mean}, {"of_mean", e.of_mean}};
+    observables[e.label] = {{"row", e.of_a_row},
+                            {"mean", e.mean},
+                            {"of_mean", e.of_mean},
+                            {"from_row", e.from_row},
+                            {"steady", e.steady}};
   record["error_estimate"] = {{"against", against}, {"observables", observables}};
   write(directory / run_record_name, record);
 }

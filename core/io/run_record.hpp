@@ -73,14 +73,17 @@ class RunRecord {
   bool ended_ = false;
 };
 
-/// How far an observable is off: the greatest of a row, and that of its mean, in its own unit.
+/// How far an observable is off: the greatest of a row, and that of its mean over the rows from `from_row` on
+/// (counted from 0), in its own unit; nan where there is no mean.
 struct ErrorOfObservable {
   std::string label;  ///< "x[cm]"
   double of_a_row, mean, of_mean;
+  int from_row;
+  bool steady;
 };
 
-/// Adds "error_estimate": {"against", "observables": {"x[cm]": {"row", "mean", "of_mean"}, ...}} to the
-/// record of a run that is over.
+/// Adds "error_estimate": {"against", "observables": {"x[cm]": {"row", "mean", "of_mean", "from_row",
+/// "steady"}, ...}} to the record of a run that is over.
 void record_errors(const std::filesystem::path& directory, const std::string& against,
                    const std::vector<ErrorOfObservable>& errors);
 

@@ -113,13 +113,15 @@ std::vector<RecordedMean> SteadyMeans::means() const {
   return all;
 }
 
-std::vector<std::string> keys_with_means(const std::vector<std::string>& keys) {
+bool has_mean(const std::string& key) {
   constexpr std::string_view no_mean[] = {"t", "ts", "cpu", "cpue", "cpur", "f", "l"};
+  return std::find(std::begin(no_mean), std::end(no_mean), key) == std::end(no_mean);
+}
+
+std::vector<std::string> keys_with_means(const std::vector<std::string>& keys) {
   std::vector<std::string> kept{"t"};
   for (const std::string& key : keys)
-    if (std::find(std::begin(no_mean), std::end(no_mean), key) == std::end(no_mean) &&
-        std::find(kept.begin(), kept.end(), key) == kept.end())
-      kept.push_back(key);
+    if (has_mean(key) && std::find(kept.begin(), kept.end(), key) == kept.end()) kept.push_back(key);
   return kept;
 }
 

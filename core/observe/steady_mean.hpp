@@ -52,6 +52,9 @@ class SteadyMeans final : public RowSink {
   std::vector<std::vector<double>> series_;
 };
 
+/// Whether rows of this key have one: times, wall clocks and counters have none.
+bool has_mean(const std::string& key);
+
 /// The time, and of these keys, each once, those that have a mean: no times, no wall clocks, no counters.
 std::vector<std::string> keys_with_means(const std::vector<std::string>& keys);
 

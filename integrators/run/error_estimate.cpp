@@ -12,6 +12,7 @@
 #include "core/deck/observable_keys.hpp"
 #include "core/jet/scales.hpp"
 #include "core/observe/output_table.hpp"
+#include "core/observe/steady_mean.hpp"
 #include "integrators/run/integration.hpp"
 
 namespace treejet {
@@ -33,14 +34,24 @@ bool is_of_wall_clock(const std::string& label) {
   return has(key_of(label), wall_clock);
 }
 
-/// Over the second half of the rows, of those that have a value.
-double mean_of_last_half(const TableOfRows& table, std::size_t column) {
+/// Of the rows from `begin` on that have a value.
+double mean_from(const TableOfRows& table, std::size_t column, std::size_t begin) {
   double sum = 0, count = 0;
-  for (std::size_t row = table.rows.size() / 2; row < table.rows.size(); ++row) {
+  for (std::size_t row = begin; row < table.rows.size(); ++row) {
     const double value = table.rows[row][column];
     if (std::isfinite(value)) sum += value, ++count;
   }
   return count > 0 ? sum / count : none;
+}
+
+/// As the summary of the run takes it (core/observe/steady_mean.hpp), `start` counted in rows of the table.
+SteadyMean mean_of_run(const TableOfRows& table, std::size_t column) {
+  if (!has_mean(key_of(table.labels[column]))) return {none, none};
+  std::vector<double> series;  // the first row, the state at the start, is in no mean
+  for (std::size_t row = 1; row < table.rows.size(); ++row) series.push_back(table.rows[row][column]);
+  SteadyMean mean = steady_mean(series);
+  ++mean.start;
+  return mean;
 }
 
 double greatest(const TableOfRows& table, std::size_t column) {
@@ -143,17 +154,25 @@ std::vector<ErrorOfObservable> errors(const TableOfRows& first, const TableOfRow
     const std::string& label = differences.labels[k];
     if (is_time(label)) continue;
     const auto place = std::find(first.labels.begin(), first.labels.end(), label) - first.labels.begin();
-    all.push_back({label, greatest(differences, k), mean_of_last_half(first, static_cast<std::size_t>(place)),
-                   std::abs(mean_of_last_half(differences, k))});
+    const SteadyMean mean = mean_of_run(first, static_cast<std::size_t>(place));
+    const bool any = mean.values > 0;
+    all.push_back({label, greatest(differences, k), mean.mean,
+                   any ? std::abs(mean_from(differences, k, static_cast<std::size_t>(mean.start))) : none,
+                   any ? mean.start : 0, mean.steady});
   }
   return all;
 }
 
 std::string errors_text(const std::vector<ErrorOfObservable>& errors, const std::string& against) {
   std::string text = fmt::format("errors, from {}:\n{:>16}{:>16}{:>20}{:>16}\n", against, "",
-                                 "of a row, most", "mean of last half", "of that mean");
-  for (const ErrorOfObservable& e : errors)
-    text += fmt::format("{:>16}{:>16.2g}{:>20.8g}{:>16.2g}\n", e.label, e.of_a_row, e.mean, e.of_mean);
+                                 "of a row, most", "mean", "of that mean");
+  for (const ErrorOfObservable& e : errors) {
+    text += fmt::format("{:>16}{:>16.2g}", e.label, e.of_a_row);
+    if (std::isfinite(e.mean))
+      text += fmt::format("{:>20.8g}{:>16.2g}  rows from {} on{}", e.mean, e.of_mean, e.from_row,
+                          e.steady ? "" : ", not steady");
+    text += "\n";
+  }
   return text;
 }
 

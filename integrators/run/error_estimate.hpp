@@ -50,8 +50,9 @@ std::optional<TableOfRows> rows_of_run(const Parameters& p, Scene<D>& scene, con
 /// left out. As many rows as both have.
 TableOfRows difference(const TableOfRows& first, const TableOfRows& second);
 
-/// For each column of the differences but the time: the greatest of a row, and that of the mean over the
-/// second half of the rows. Rows without a value do not count.
+/// For each column of the differences but the time: the greatest of a row, and that of the mean that the
+/// run's own summary takes, over the same rows (core/observe/steady_mean.hpp). Rows without a value do not
+/// count.
 std::vector<ErrorOfObservable> errors(const TableOfRows& first, const TableOfRows& differences);
 
 /// As the closing summary shows them.

@@ -58,6 +58,10 @@ def test_the_error_that_a_second_run_tells_is_the_error_of_the_first(tmp_path):
         assert abs(error - estimate)[3:].max() < 0.1 * abs(error)[3:].max()
     recorded = json.loads((tmp_path / "run.json").read_text())["error_estimate"]
     assert recorded["observables"]["x[cm]"]["row"] == abs(told[:, 1]).max()
-    half = told[len(told) // 2 :, 1]
-    assert recorded["observables"]["x[cm]"]["of_mean"] == pytest.approx(abs(half.mean()), rel=1e-12)
+    of_x, summary = recorded["observables"]["x[cm]"], json.loads((tmp_path / "run.json").read_text())["means"]["x"]
+    assert of_x["mean"] == summary["mean"]  # one rule for both
+    assert of_x["steady"] == summary["steady"]
+    rows = told[of_x["from_row"] :, 1]
+    assert len(rows) == summary["values"]
+    assert of_x["of_mean"] == pytest.approx(abs(rows.mean()), rel=1e-12)
     assert subprocess.run(command, capture_output=True).returncode == 4  # what is there stays
