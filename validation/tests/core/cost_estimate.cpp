@@ -57,3 +57,14 @@ TEST_CASE("A plan is a trial's rates carried on to the end, also if the machine 
   CHECK(plan(p, smooth, false).seconds == Approx(1.6 * end).epsilon(1e-9));
   CHECK(plan(p, one_step, false).seconds == Approx(1.6 * end).epsilon(1e-9));
 }
+
+TEST_CASE("Once beads arrive a plan carries on their mean number since then, not the last one") {
+  const Parameters p = example("pvp");
+  const double end = p.final_time / scales(p).time;
+  std::vector<TrialSample> samples = {at(0, 0), at(1, 1.6), at(2, 3.2), at(3, 4.8), at(4, 6.4)};
+  const std::int64_t beads[] = {0, 100, 140, 120, 160};  // whips, as a jet does
+  for (std::size_t k = 0; k < samples.size(); ++k) samples[k].beads = beads[k];
+  const double mean = (100 + 140 + 120 + 160) / 4.0;
+  CHECK(plan(p, trial(samples), false).mean_beads ==
+        Approx((100 + 140 + 120 + 160 + mean * (end - 4)) / end).epsilon(1e-9));
+}

@@ -780,6 +780,27 @@ TEST_CASE("parallel auto takes subdomains of five thousand beads and more, where
   CHECK(data_of_ranks(p, 3) == ParallelData::replicated);  // 3333 beads a rank
 }
 
+TEST_CASE("Each obstacle to subdomains is told alone, and keeps parallel auto from them", "[deck]") {
+  const Parameters free =
+      parse_deck(altered("points 1", "points 10000\nparallel auto\ncoulomb auto"), name).parameters;
+  REQUIRE(obstacles_to_subdomains(free).empty());
+  const auto met = [&](auto member, auto value, const char* says) {
+    Parameters p = free;
+    p.*member = value;
+    INFO(says);
+    const auto found = obstacles_to_subdomains(p);
+    REQUIRE(found.size() == 1);
+    CHECK_THAT(found[0].message, Catch::Contains(says));
+    CHECK(data_of_ranks(p, 2) == ParallelData::replicated);
+  };
+  met(&Parameters::system, 1, "system 1");
+  met(&Parameters::coulomb, CoulombSum::direct, "direct sum needs all beads");
+  met(&Parameters::coulomb_expansions, ExpansionKind::none, "coulomb expansions local");
+  met(&Parameters::integrator, Scheme::sra1, "draws for all beads");
+  met(&Parameters::bending, true, "parallel replicated");
+  met(&Parameters::refinement, true, "is not refined");
+}
+
 TEST_CASE("No two directives share a spelling, and no two observables a key", "[deck]") {
   std::map<std::string, int> seen;
   for (const Directive& d : directives()) {

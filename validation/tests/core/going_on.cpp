@@ -146,6 +146,31 @@ TEST_CASE("What is extended tells from where on, and its record and trajectory t
              Catch::Contains("\"final time 5.d-4\"") && !Catch::Contains("\"final time 3.d-4\""));
 }
 
+TEST_CASE("The means and the effort of the shorter run leave the record once it is extended") {
+  const Place place;
+  REQUIRE(run(deck_of("pvp", {"final time 3.d-4", "print time 1.d-5"}), place.path));
+  REQUIRE_THAT(read_whole(place.path / "run.json"),
+               Catch::Contains("\"means\"") && Catch::Contains("\"effort\""));
+  Resumption found = resumption(place.path, this_program, {"final time 1.d-3"});
+  REQUIRE_FALSE(run(found.deck, place.path, after(3), {&found.checkpoint, {"final time 1.d-3"}}));
+  CHECK_THAT(read_whole(place.path / "run.json"),
+             !Catch::Contains("\"means\"") && !Catch::Contains("\"effort\""));
+}
+
+TEST_CASE("A checkpoint knows what its run began with") {
+  const Place first, second;
+  const Deck deck = deck_of("pvp", {"final time 3.d-4", "print time 1.d-4"});
+  REQUIRE(run(deck, first.path));
+  Origin state = origin((first.path / "checkpoint.end").string());
+  const std::string text = description(state, deck.parameters);
+  REQUIRE_FALSE(run(deck, second.path, after(3), {.origin = &state}));
+  Resumption stopped = resumption(second.path, this_program);
+  REQUIRE(stopped.checkpoint.state.has("begins with"));
+  std::string told;
+  stopped.checkpoint.state.part("begins with", told);
+  CHECK(told == text);
+}
+
 TEST_CASE("Nothing but the end of a run that goes on may change") {
   const Place place, silent, brief;
   REQUIRE(run(deck_of("pvp", {"final time 3.d-4", "print time 1.d-4"}), place.path));

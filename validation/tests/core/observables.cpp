@@ -299,6 +299,13 @@ TEST_CASE("The largest error of the forces is not their mean one") {
   CHECK(kept->remarks == 1);  // the method has not changed since
 }
 
+TEST_CASE("The aperture is the full angle of the cone that the oldest bead is on") {
+  Run<3> run(uniform_motion());
+  run.scene.jet.y.row(0).head<3>() << 0.3, 0.1, std::sqrt(0.09 - 0.01);  // as far off the axis as along it
+  const auto r = recorded<3>(run, {"angl"}, 1e-9, 1e-9);
+  CHECK(r[0][0] == Approx(90).epsilon(round_off));
+}
+
 TEST_CASE("The path of a window ends at the nozzle where it is then") {
   Parameters p = plain_parameters();
   p.perturb = true;

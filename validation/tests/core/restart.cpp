@@ -1,16 +1,21 @@
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <csignal>
 #include <fstream>
 #include <random>
 #include <sstream>
+#include <thread>
 
 #include "core/base/error.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/directory_lock.hpp"
 #include "core/restart/resume.hpp"
+#include "core/restart/stop_request.hpp"
 #include "forces/scene/scene.hpp"
 #include "integrators/run/simulation.hpp"
 #include "validation/support/scratch_directory.hpp"
@@ -221,6 +226,30 @@ TEST_CASE("A checkpoint of another program is taken with a warning that names bo
   const auto warnings = resumption(place.path, "another program").warnings;
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0], Catch::Contains(this_program) && Catch::Contains("another program"));
+  // forces of its own are another physics, which is no matter of a warning
+  const std::string own = this_program + own_physics_mark + "quadratic drag";
+  CHECK_THROWS_WITH(resumption(place.path, own),
+                    Catch::Contains("stock physics") && Catch::Contains("quadratic drag"));
+}
+
+TEST_CASE("A run goes on only while two of its longest steps still fit into its wall time") {
+  using Clock = std::chrono::steady_clock;
+  const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
+  const double walltime = 0.3;
+  const auto begin = Clock::now();
+  StopSignals signals({.walltime = walltime});
+  double longest = 0;
+  for (auto looked = Clock::now(); true;) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    const auto now = Clock::now();
+    // from outside, steps look shorter and the time that is left longer than to what is asked
+    longest = std::max(longest, seconds(now - looked));
+    const double left = walltime - seconds(now - begin);
+    if (signals.stop_request() == StopRequest::stop) break;
+    looked = Clock::now();
+    REQUIRE(left >= 2 * longest);
+  }
+  CHECK(signals.reason() == "walltime");
 }
 
 TEST_CASE("A deck other than the checkpoint's is refused, naming each directive that differs") {
@@ -323,4 +352,39 @@ TEST_CASE("What an archive reads is what was written; another layout and missing
   Archive partly(bytes);
   partly(read.number);
   CHECK_THROWS_AS(partly.expect_end(), FileError);
+
+  // a length that no memory holds
+  Archive long_list;
+  std::size_t count = std::size_t{1} << 61;
+  long_list(count);
+  const std::string wrong = std::move(long_list).bytes();
+  Archive of_a_list(wrong);
+  CHECK_THROWS_AS(of_a_list(read.list), FileError);
+}
+
+TEST_CASE("A row that a full disk has cut short is taken back") {
+  const Place place;
+  const fs::path path = place.path / "statdat.dat";
+  OutputFile file(path, OutputFile::Existing::replace);
+  file.write("whole\n");
+  struct Limit {
+    rlimit before{};
+    void (*handler)(int) = std::signal(SIGXFSZ, SIG_IGN);
+    explicit Limit(rlim_t bytes) {
+      getrlimit(RLIMIT_FSIZE, &before);
+      const rlimit now{bytes, before.rlim_max};
+      setrlimit(RLIMIT_FSIZE, &now);
+    }
+    ~Limit() {
+      setrlimit(RLIMIT_FSIZE, &before);
+      std::signal(SIGXFSZ, handler);
+    }
+  };
+  {
+    const Limit limit(9);  // three letters of the next row go through
+    CHECK_THROWS_WITH(file.write("half a row\n"), Catch::Contains("statdat.dat: writing failed"));
+  }
+  CHECK(read_whole(path) == "whole\n");
+  file.write("next\n");
+  CHECK(read_whole(path) == "whole\nnext\n");
 }

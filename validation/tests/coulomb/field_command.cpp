@@ -42,6 +42,9 @@ TEST_CASE("A table that is wrong is refused with its line") {
                     Catch::Contains("line 3"));
   CHECK_THROWS_WITH(read_points(file("treejet-c.csv", "x,y,z,q\n1,2,3,4x\n")), Catch::Contains("'4x'"));
   CHECK_THROWS_WITH(read_points(file("treejet-d.csv", "x,y,z,q\n")), Catch::Contains("no points"));
+  // 1,5 and 2,5 were numbers to whoever wrote this
+  CHECK_THROWS_WITH(read_points(file("treejet-e.csv", "x,y,z,q\n1,2,3,4\n1,5,2,5,0,1\n")),
+                    Catch::Contains("line 3 has 6 values") && Catch::Contains("decimal comma"));
 }
 
 TEST_CASE("A table is read whatever editor wrote it, with numbers as decks have them") {

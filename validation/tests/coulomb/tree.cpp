@@ -113,6 +113,22 @@ TEST_CASE("The critical radius of a cell is larger where points crowd") {
 }
 
 TEST_CASE(
+    "A last leaf of one point, whose radius is round-off, leaves the critical radii of the others alone") {
+  for (int k = 0; k < 50; ++k) {
+    PointSet set;
+    for (int i = 0; i < 16; ++i) set.add({0.5 * i, 0, 0}, 1);
+    set.add({0.1 + 0.37 * k, 0.3, 1.0 / 3}, 1 + 0.4 * std::sin(k));  // q x / q is not always x
+    Cells cells(17, 16);
+    cells.enclose({{set.r[0].data(), set.r[1].data(), set.r[2].data()}, set.q.data(), 0, 17},
+                  wide_kernels(default_isa()).reach, {1});
+    cells.equalise_errors(4, 0.4, cells.spread(), {1});
+    const int full = cells.size() - cells.leaves();
+    CAPTURE(k);
+    CHECK(cells.critical_radius()[full] == Approx(cells.radius()[full]).epsilon(1e-14));  // its own mean
+  }
+}
+
+TEST_CASE(
     "Where points crowd and are strewn, the tree errs no more and does half the work if cells err alike") {
   const PointSet set = uneven_jet(8000);
   const FieldSet exact = direct_field(set);
@@ -317,6 +333,21 @@ TEST_CASE("Small, empty and degenerate sets of charges have their right field") 
         CHECK(field.e[e][2000] == Approx(exact.e[e][700]).epsilon(1e-9).margin(1e-9));
       }
     }
+  }
+  SECTION("the potential at such a pair is that of all other points") {
+    PointSet set = coil(300, 10, 0.2);
+    set.add({set.r[0][100], set.r[1][100], set.r[2][100]}, 7);
+    double expected = 0;
+    for (std::size_t j = 0; j < 300; ++j)
+      if (j != 100)
+        expected += set.q[j] / std::hypot(set.r[0][100] - set.r[0][j], set.r[1][100] - set.r[1][j],
+                                          set.r[2][100] - set.r[2][j]);
+    FieldSet field(301);
+    std::vector<double> potential(301);
+    CoulombSolver direct({.method = CoulombMethod::direct});
+    direct.field(set.view(), {0, 301}, field.view(), {1}, potential.data());
+    for (const std::size_t i : {100, 300})
+      CHECK(potential[i] == Approx(expected).epsilon(1e-13));  // round-off
   }
   SECTION("points all at one place") {
     PointSet set;

@@ -248,3 +248,84 @@ TEST_CASE("A long jet that begins by letting a bead go has no two moments at one
   // 1e-4 cm is what tolerance 1e-6 stands for in case 3
   CHECK(two.x() == Approx(one.x()).margin(1e-5));
 }
+
+TEST_CASE("Once short waves have grown too much nothing is continued before the jet is calm again") {
+  const Parameters p = example("pvp", {"points 400", "initial length 8.", "inserting no", "perturb no"});
+  Run<3> run(p);
+  Jet<3> jet = run.jet();
+  jet.y.middleCols<3>(velocity_column<3>).setZero();
+  jet.y.col(stress_column<3>) = 0;
+  MultirateMotion<3> two(*run.scene.motion, ErrorNorm(p), ShortWaves(p));
+  State<3> slope;
+  jet.y.col(velocity_column<3>) = 1;
+  (*run.scene.motion)(jet, 0, jet.y, slope);
+  const double N_at_speed_1 = ShortWaves(p).growth(run.scene.motion->chain());
+  double t = 0;
+  const auto continues_after_four_evaluations_at = [&](double N) {
+    jet.y.col(velocity_column<3>) = N_at_speed_1 / N;
+    for (int k = 0; k < 4; ++k) two.on_accepted_step(jet, t += 1 + t, jet.y, nullptr, slope);
+    return std::isfinite(two.longest_step());
+  };
+  CHECK(continues_after_four_evaluations_at(9));
+  CHECK_FALSE(continues_after_four_evaluations_at(10));
+  CHECK_FALSE(continues_after_four_evaluations_at(9));
+  CHECK(continues_after_four_evaluations_at(8));
+  CHECK(continues_after_four_evaluations_at(9));
+}
+
+TEST_CASE("The interval of full evaluations goes as the tolerance to the power a third below 1e-6") {
+  Run<3> run(with_tolerance(example("pvp"), 1e-6));
+  run.to(0.006);
+  const auto interval = [&](double tolerance, double spacing) {
+    Jet<3> jet = run.jet();
+    MultirateMotion<3> two(*run.scene.motion, ErrorNorm(with_tolerance(run.parameters, tolerance)),
+                           ShortWaves(run.parameters));
+    State<3> slope;
+    for (int k = 0; k < 4; ++k) {
+      two.on_accepted_step(jet, jet.t, jet.y, nullptr, slope);
+      jet.t += spacing;
+      jet.y += spacing * slope;
+    }
+    return two.longest_step() / spacing;
+  };
+  // of a spacing whose next interval is not clamped, neither to 1.5 nor to 0.3 of it
+  double spacing = 0.05;
+  while (interval(1e-6, spacing) < 1) spacing *= 0.9;
+  // the error is an estimate of fourth order against a tolerance that it is held to the power 4/3 of
+  CHECK(interval(1e-6, spacing) / interval(1e-7, spacing) == Approx(std::cbrt(10)).epsilon(1e-9));
+  while (interval(1e-4, spacing) > 1.4) spacing *= 1.1;
+  CHECK(interval(1e-4, spacing) / interval(1e-5, spacing) == Approx(std::pow(10, 0.25)).epsilon(1e-9));
+}
+
+TEST_CASE("Nothing is continued over a kink of the right-hand side") {
+  Run<3> run(with_tolerance(example("pvp"), 1e-6));
+  run.to(0.006);
+  Jet<3> jet = run.jet();
+  MultirateMotion<3> two(*run.scene.motion, ErrorNorm(run.parameters), ShortWaves(run.parameters));
+  State<3> slope, full;
+  for (int k = 0; k < 4; ++k) two.on_accepted_step(jet, jet.t += 1e-3, jet.y, nullptr, slope);
+  REQUIRE(two.fast_region(jet));
+  two.smooth_from(jet.t);
+  CHECK_FALSE(two.fast_region(jet));
+  CHECK(std::isinf(two.longest_step()));
+  two(jet, jet.t + 1e-4, jet.y, slope);
+  (*run.scene.motion)(jet, jet.t + 1e-4, jet.y, full);
+  CHECK((slope == full).all());
+}
+
+TEST_CASE("The field of far beads on a held bead with mass is continued along the jet to its place") {
+  const Parameters p = example("pvp", {"feed flow", "flow rate 60 mL/h"});
+  Run<3> run(with_tolerance(p, 1e-6));
+  double t = 0.008;
+  for (run.to(t); !run.jet().held || run.jet().size() < 2 * fast_region_beads; run.to(t += 1e-5))
+    REQUIRE(t < 0.02);
+  Jet<3> jet = run.jet();
+  MultirateMotion<3> two(*run.scene.motion, ErrorNorm(p), ShortWaves(p));
+  State<3> slope, full;
+  for (int k = 0; k < 3; ++k) two.on_accepted_step(jet, jet.t += 1e-6, jet.y, nullptr, slope);
+  two(jet, jet.t, jet.y, slope);
+  (*run.scene.motion)(jet, jet.t, jet.y, full);
+  const auto acceleration = [&](const State<3>& of) { return velocity<3>(of, jet.size() - 1); };
+  // at 32 elements and more the field of the chain is 1/32 of its own, and continued to 1e-5 of itself
+  CHECK((acceleration(slope) - acceleration(full)).norm() < 1e-6 * acceleration(full).norm());
+}

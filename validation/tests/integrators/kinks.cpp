@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/base/error.hpp"
+#include "forces/multirate/multirate_motion.hpp"
 #include "validation/support/scenes.hpp"
 
 using namespace treejet;
@@ -81,4 +83,86 @@ TEST_CASE("Adaptive steps meet the jumps of a force and are as long as these let
     CHECK(ends.astride == 0);
     CHECK(ends.steps < 100);  // a search for seven jumps by rejected steps takes several hundred
   }
+}
+
+namespace {
+
+/// Begins each interval of tau with a push that dies away within a thousandth of it.
+class Pulses final : public ForceTerm<1> {
+ public:
+  std::string_view name() const override { return "pulses"; }
+  double smooth_from(double t) override { return (begin_ = tau * std::floor(t / tau + 1e-9)) + tau; }
+  void add(const Chain<1>& chain, Rows rows, Acceleration<1>& a) const override {
+    a.middleRows(rows.first, rows.size()) += std::exp(-1000 * (chain.t - begin_) / tau);
+  }
+
+ private:
+  double begin_ = 0;
+};
+
+/// Pushes one bead to and fro, from time 5 on faster than any step can follow.
+class Roughness final : public ForceTerm<3> {
+ public:
+  explicit Roughness(int bead) : bead_(bead) {}
+  std::string_view name() const override { return "roughness"; }
+  void add(const Chain<3>& chain, Rows rows, Acceleration<3>& a) const override {
+    if (rows.first <= bead_ && bead_ < rows.last && chain.t > 5)
+      a(bead_, 0) += 1e30 * std::sin(1e12 * chain.t);
+  }
+
+ private:
+  int bead_;
+};
+
+}  // namespace
+
+TEST_CASE("A step that ends at a kink ends there to the bit, and none is made of what rounding leaves") {
+  struct Slivers final : Observer<1> {
+    void segment(const Jet<1>&, const DenseOutput<1>& s) override { count += s.until - s.begin() < 1e-12; }
+    int count = 0;
+  } slivers;
+  Parameters p = plain_parameters();
+  p.integrator = Scheme::dopri5;
+  p.tolerance = 1e-6;
+  p.final_time = 1000 * scales(p).time;
+  auto f = equations<1>(p, Sawtooth(tau));
+  Jet<1> jet = jet_of<1>({bead_at(1)});
+  const Nozzle<1> nozzle(p);
+  const Collector collector(p);
+  Integration<1>(p, {jet, f, nozzle, collector}, {&slivers})
+      .march.to(119.9);  // 400 teeth, the last one not to its end
+  CHECK(slivers.count == 0);
+}
+
+TEST_CASE("The first step after a kink is the one that the last kink allowed, without a search") {
+  Parameters p = plain_parameters();
+  p.integrator = Scheme::dopri5;
+  p.tolerance = 1e-6;
+  p.final_time = 2 * end * scales(p).time;
+  auto f = equations<1>(p, Pulses());
+  Jet<1> jet = jet_of<1>({bead_at(1)});
+  const Nozzle<1> nozzle(p);
+  const Collector collector(p);
+  Integration<1> integration(p, {jet, f, nozzle, collector});
+  integration.march.to(end);
+  // the first two pulses are searched for; six more find a step of half a tooth too long by a factor of 500
+  // if nobody tells, and a step may shrink by 5 or so at a time
+  CHECK(integration.march.effort().rejected < 14);
+}
+
+TEST_CASE("A step that has become too small names the bead of the whole jet, whoever was followed") {
+  Parameters p = plain_parameters();
+  p.integrator = Scheme::dopri5;
+  p.tolerance = 1e-6;
+  p.final_time = 10 * scales(p).time;
+  auto f = equations<3>(p, Roughness(97), CoulombForce<3>(1e-20, 1 << 30));
+  MultirateMotion<3> two(f, ErrorNorm(p), ShortWaves(p));
+  std::vector<Bead<3>> beads;
+  for (int x = 100; x > 0; --x) beads.push_back({Vec<3>(x, 0, 0), Vec<3>::Zero()});
+  Jet<3> jet = jet_of<3>(beads);
+  const Nozzle<3> nozzle(p);
+  const Collector collector(p);
+  Integration<3> integration(p, {jet, two, nozzle, collector});
+  CHECK_THROWS_WITH(integration.march.to(10), Catch::Contains("because of bead 97 (number 97"));
+  CHECK(two.fast_region(jet));  // 44 beads were followed
 }

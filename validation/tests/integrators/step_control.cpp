@@ -75,6 +75,21 @@ TEST_CASE("A fixed step that would end a sliver before its grid goes on to the n
   CHECK(control.proposal(0.25, 0.27) == Approx(0.02).epsilon(1e-9));
 }
 
+TEST_CASE(
+    "An adaptive step is cut by an event in its last hundredth only: one well inside gets a step of its "
+    "own") {
+  struct Cuts final : Observer<3> {
+    void segment(const Jet<3>&, const DenseOutput<3>& s) override {
+      if (s.to().t > s.until) most = std::max(most, (s.to().t - s.until) / (s.to().t - s.begin()));
+    }
+    double most = 0;
+  } cuts;
+  Run<3> run(with_tolerance(example("pvp", {"collector distance 0.05"}), 1e-6));
+  run.to(2e-3, {&cuts});
+  REQUIRE(run.jet().removed > 3);
+  CHECK(cuts.most < 0.011);  // an event may lie in a step's extrapolation by as much
+}
+
 TEST_CASE("No step is so long that its samples keep the run from looking at signals and the clock") {
   Parameters p = with_tolerance(example("pvp"), 1e-6);
   p.print_xyz = 1e-13;  // steps of case 3 are some 1e-5 s long: 1e8 samples each

@@ -317,3 +317,18 @@ TEST_CASE("The viscous stress of a power law and its slope are closed formulae, 
   p.solvent_viscosity = p.viscosity / 4;
   CHECK(viscous_stress(p).consistency == 0.25);
 }
+
+TEST_CASE("The implicit solve of a bead under drag alone is that of a single linear equation") {
+  LocalJacobian<1> J;
+  J.element.resize(1);
+  J.inverse_mass = Eigen::ArrayXd::Ones(1);
+  J.by_velocity()[0](0, 0) = -3;
+  ChainSolver<1> solver;
+  const double s = 0.5;
+  solver.factor(J, s);
+  State<1> u = State<1>::Zero(1, own_columns<1>);
+  u(0, velocity_column<1>) = 1;
+  solver.solve(u);
+  CHECK(u(0, velocity_column<1>) == Approx(1 / (1 + 3 * s)).epsilon(1e-15));
+  CHECK(u(0, 0) == Approx(s / (1 + 3 * s)).epsilon(1e-15));
+}

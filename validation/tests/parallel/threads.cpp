@@ -71,3 +71,9 @@ TEST_CASE("Ranks: more threads than cores are told, as many are not") {
   CHECK(alone.crowding({available_cores()}).empty());
   CHECK_THAT(alone.crowding({available_cores() + 1}), Catch::Contains("threads on"));
 }
+
+TEST_CASE("Ranks: the time that is not spent on exchange and waiting is that of computing") {
+  CHECK(times_description({.count = 3, .exchange = 0.5, .wait = 1.5}, 10) ==
+        "compute 8 s, exchange 0.5 s, wait 1.5 s; 3 gatherings\n");
+  CHECK(times_description({}, 10).empty());
+}

@@ -3,7 +3,8 @@
  *   FAIL_FILE  the end of the file's path; other files are left alone
  *   FAIL_AT    the first write that fails, counted from 1; 0: none
  *   FAIL_WITH  the error's number; half of the first failing write still goes through, as on a disk that fills up
- *   FAIL_LOG   where the number of writes is left at the end
+ *   FAIL_SYNC  if 1: what cannot be forced to disk is the file, its writes go through
+ *   FAIL_LOG   where the number of writes is left at the end, and behind it how often the file was forced to disk
  *
  * From the first failing write on all fail, writes and resizing of that file. The program's own calls go through
  * write, writev, pwrite and ftruncate, libraries' too; stdio's do not, so the terminal is left alone. */
@@ -18,7 +19,7 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
-static int writes;
+static int writes, syncs;
 
 static const char* setting(const char* name) {
   const char* value = getenv(name);
@@ -40,7 +41,7 @@ static ssize_t granted(int descriptor, size_t size) {
   if (!is_meant(descriptor)) return (ssize_t)size;
   const int at = atoi(setting("FAIL_AT"));
   ++writes;
-  if (at == 0 || writes < at) return (ssize_t)size;
+  if (at == 0 || writes < at || *setting("FAIL_SYNC")) return (ssize_t)size;
   errno = atoi(setting("FAIL_WITH"));
   return writes == at && size > 1 ? (ssize_t)(size / 2) : -1;
 }
@@ -90,11 +91,22 @@ int ftruncate64(int descriptor, off64_t size) {
   return ftruncate(descriptor, size);
 }
 
+int fsync(int descriptor) {
+  if (is_meant(descriptor)) {
+    ++syncs;
+    if (*setting("FAIL_SYNC")) {
+      errno = atoi(setting("FAIL_WITH"));
+      return -1;
+    }
+  }
+  return ((int (*)(int))next("fsync"))(descriptor);
+}
+
 __attribute__((destructor)) static void tell(void) {
   const char* log = setting("FAIL_LOG");
   if (!*log) return;
   FILE* file = fopen(log, "w");
   if (!file) return;
-  fprintf(file, "%d\n", writes);
+  fprintf(file, "%d %d\n", writes, syncs);
   fclose(file);
 }

@@ -28,14 +28,14 @@ def check(holds, what):
         print("FAILED:", what)
 
 
-def call(arguments, file="", at=0, with_error=0):
+def call(arguments, file="", at=0, with_error=0, sync=""):
     """The finished process, and how many writes to the file it made."""
     log = work / "writes"
     log.unlink(missing_ok=True)
     made = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, errors="replace",
                           env=dict(os.environ, LD_PRELOAD=str(shim), FAIL_FILE=file, FAIL_AT=str(at),
-                                   FAIL_WITH=str(with_error), FAIL_LOG=str(log)))
-    return made, int(log.read_text()) if log.exists() else 0
+                                   FAIL_WITH=str(with_error), FAIL_SYNC=sync, FAIL_LOG=str(log)))
+    return made, int(log.read_text().split()[0]) if log.exists() else 0
 
 
 def run(out):
@@ -111,6 +111,14 @@ def failing_fields():
         expect_right_end(made, f"field, write {n} of {count} with {errno.errorcode[error]}", "field.csv")
 
 
+def failing_to_reach_the_disk():
+    """A checkpoint that may still be in memory must not take the place of one that is on the disk."""
+    out = work / "not-on-disk"
+    made, _ = call(run(out), "checkpoint.new", 0, errno.EIO, sync="1")
+    expect_right_end(made, "a checkpoint that cannot be forced to disk", "checkpoint")
+    check(not list(out.glob("checkpoint*")), f"a checkpoint that is not on the disk is in place: {list(out.iterdir())}")
+
+
 shutil.rmtree(work, ignore_errors=True)
 work.mkdir(parents=True)
 whole = work / "whole"
@@ -119,4 +127,5 @@ check(made.returncode == 0, f"a run left alone: exit code {made.returncode}: {ma
 failing_runs(whole)
 failing_conversions(whole)
 failing_fields()
+failing_to_reach_the_disk()
 sys.exit(1 if failures else 0)

@@ -29,6 +29,13 @@ TEST_CASE("A sum over ranks has the same bits on all of them") {
   CHECK(ranks.agree(bits));
 }
 
+TEST_CASE("Ranks agree on what is the same everywhere, and not where one alone has something else") {
+  const Ranks& ranks = started_ranks();
+  CHECK(ranks.agree("the same deck"));
+  const bool last = ranks.rank() == ranks.size() - 1;
+  CHECK(ranks.agree(last ? "another deck" : "the same deck") == (ranks.size() == 1));
+}
+
 TEST_CASE("The greatest of the ranks' numbers is known to all") {
   const Ranks& ranks = started_ranks();
   CHECK(ranks.greatest(ranks.rank()) == ranks.size() - 1);

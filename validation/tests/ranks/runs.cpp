@@ -131,7 +131,10 @@ TEST_CASE("Subdomains have every local term and meet events at the ends of steps
       {"tolerance 1.d-7", "evaporation yes", "evaporation polymer frac 0.5", "evaporation diffusivity 30.",
        "self field slender"},  // elements end to dry
       {"tolerance 1.d-7", "hbfluid yes", "hbfluid consistency 1.", "hbfluid index 0.8"},
-      {"timestep 2.d-7", "integrator heun", "events step"}};
+      {"timestep 2.d-7", "integrator heun", "events step"},
+      // pushes that go with the number of a bead since the start
+      {"timestep 2.d-7", "integrator heun", "airdrag yes", "airdrag model full", "noise yes",
+       "noise diffusivity 1.d6", "noise interval 3.d-6"}};
   for (const Directives& steps : scenes) {
     CAPTURE(steps);
     const Flight whole = flight(stream(60, steps, {"multirate no"}), {}, seconds, interval);
@@ -207,6 +210,26 @@ TEST_CASE("Subdomains of a jet of one bead, and of one that empties") {
   p.perturb = false;
   const Flight emptied = flight(p, ranks, 1e-2, 1e-3);
   CHECK(emptied.effort.removed == 6);
+}
+
+TEST_CASE(
+    "The writing rank gets the beads of all subdomains in their order, each portion told what is before it") {
+  const Ranks& ranks = started_ranks();
+  Run<3> run(stream(60, {"tolerance 1.d-6"}, in_subdomains("1.d-5")), {1}, ranks);
+  run.scene.jet.removed = 7;
+  std::int64_t next = 7;
+  bool right = true;
+  run.scene.decomposition().in_portions(run.scene.jet, 60, [&](const Jet<3>& some) {
+    right = right && some.removed == next;
+    next += some.size();
+  });
+  CHECK(ranks.greatest(right ? 0 : 1) == 0);
+  if (ranks.first()) CHECK(next == 7 + 60);
+  const Jet<3> whole = Run<3>(stream(60, {"tolerance 1.d-6"})).jet();
+  const Vec<3> nozzle = run.scene.nozzle.position(0);
+  // the same lengths, added in another order
+  CHECK(run.scene.decomposition().path_length(run.jet().y, nozzle) ==
+        Approx(path_length<3>(whole.y, nozzle)).epsilon(1e-13));
 }
 
 TEST_CASE("An error that is no number on one rank lets no rank go on") {
