@@ -116,30 +116,35 @@ void counts(const std::filesystem::path& folder, Report& report) {
   }
 }
 
+/// Their refinement lays elements anew at the threshold, 0.4 cm: 0.41 to 0.42 cm of path a bead on record.
+/// Ours halves those above it; with this threshold they are as long in the mean, and so apertures are alike.
+const std::string elements_as_long = "dynamic refinement threshold 0.58";
+
 void long_runs(const std::filesystem::path& folder, Report& report, ResultTable& table) {
-  const Case cases[] = {
-      {"v2.0b-input-24",
-       "full run of 2.0 beta",
-       as_2_0,
-       0.04,
-       {{lp, 213.8, 213.8}, {vc, 1960, 1960}, {yz, 3.83, 3.83}, {angl, 26.9, 26.9}, {rc, 3.16e-4, 3.16e-4}}},
-      {"v2.0b-input-25",
-       "full run of 2.0 beta, polymer 0.5",
-       joined(as_2_0, {"evaporation polymer frac 0.5"}),
-       0.04,
-       {{lp, 111.9, 111.9}, {vc, 2534, 2534}, {yz, 2.78, 2.78}, {angl, 19.7, 19.7}, {rc, 2.77e-4, 2.77e-4}}}};
-  const double beads[] = {517, 268};
-  for (std::size_t k = 0; k < std::size(cases); ++k) {
-    const Case& c = cases[k];
+  const std::vector<std::string> model = joined(as_2_0, {elements_as_long});
+  const Case cases[] = {{"v2.0b-input-24",
+                         "full run of 2.0 beta",
+                         model,
+                         0.03,
+                         {{n, 517, 517},
+                          {lp, 213.8, 213.8},
+                          {vc, 1960, 1960},
+                          {yz, 3.83, 3.83},
+                          {angl, 26.9, 26.9},
+                          {rc, 3.16e-4, 3.16e-4}}},
+                        {"v2.0b-input-25",
+                         "full run of 2.0 beta, polymer 0.5",
+                         joined(model, {"evaporation polymer frac 0.5"}),
+                         0.03,
+                         {{n, 241, 297},
+                          {lp, 111.9, 111.9},
+                          {vc, 2534, 2534},
+                          {yz, 2.78, 2.78},
+                          {angl, 19.7, 19.7},
+                          {rc, 2.77e-4, 2.77e-4}}}};
+  for (const Case& c : cases) {
     const std::vector<double> found = steady_means(c, folder);
     judge(c, found, 0.1, report);
-    const double threshold =
-        read_deck((folder / (c.deck + ".dat")).string()).parameters.refinement_threshold.value();
-    report.differs(
-        claim(c, n), found[n],
-        {beads[k], found[lp] / threshold, 2 * found[lp] / threshold,
-         "their refinement lays elements anew at the threshold, ours halves those above it: one to "
-         "two of them a threshold of path"});
     add_row(c, found, table);
   }
 }
