@@ -33,7 +33,7 @@ Volume volume(const LongChain& chain, int points, int ranks, const TreeShape& sh
   Cells::Spread all{};
   for (int k = 0; k < ranks; k += std::max(1, ranks / enough_for_a_mean)) {
     const Cells::Spread own = tree_of(k, stride).spread();
-    all.sum += own.sum, all.leaves += own.leaves;
+    all.sum += own.sum, all.points += own.points;
   }
   for (int k = 0; k < ranks; ++k) {
     SubdomainTree tree = tree_of(k, stride);
