@@ -334,7 +334,7 @@ TEST_CASE("The instant at which an element has dried is located: a scheme keeps 
     p.inserting = p.removing = p.perturb = false;
     p.points = 3;
     p.initial_length = 0.06;
-    p.vapour_diffusivity = 1e5;
+    p.vapour_diffusivity = 500;  // dry in the middle of the run, where steps have become regular
     const double end = 1e-4;
     p = with_steps(p, Scheme::rk4, end / steps);
     Run<3> run(p);
@@ -347,5 +347,5 @@ TEST_CASE("The instant at which an element has dried is located: a scheme keeps 
   const double first = (coarse - middle).abs().maxCoeff(), second = (middle - fine).abs().maxCoeff();
   CAPTURE(first, second);
   CHECK(second > 1e-13);       // above round-off
-  CHECK(first > 10 * second);  // order 4 gives 16; a kink within steps gives 2 to 4
+  CHECK(first > 10 * second);  // order 4 gives 16; a kink within steps gives 4
 }

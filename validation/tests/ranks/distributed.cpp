@@ -202,7 +202,9 @@ TEST_CASE("A chain that grows and moves keeps its accuracy in subdomains") {
   CHECK(solver.report().error.choices >= 2);
 }
 
-TEST_CASE("A point more or less changes no error, though it makes a leaf of its own on every rank") {
+TEST_CASE(
+    "A point more than full leaves hold makes no error greater, though it is a leaf of its own on every "
+    "rank") {
   const Ranks& ranks = started_ranks();
   std::vector<double> errors;
   const int full = 16 * 32 * ranks.size();  // points of full leaves; then one more on some ranks, and on all
@@ -216,10 +218,11 @@ TEST_CASE("A point more or less changes no error, though it makes a leaf of its 
     tree.evaluate(tree.leaves_of({0, own.size()}), {0, own.size()}, field.view(), {1});
     errors.push_back(error(set, rows, field, ranks));
   }
-  // leaves of other points err a little otherwise; by a lone point they erred up to 14 times as much
-  const auto [least, most] = std::minmax_element(errors.begin(), errors.end());
-  INFO(*least << " to " << *most);
-  CHECK(*most < 2 * *least);
+  // cells that are cut elsewhere err otherwise: by up to 1.1 times as much on 1 to 8 ranks, or a third on 2;
+  // by a lone point they erred up to 14 times as much
+  const double most = *std::max_element(errors.begin(), errors.end());
+  INFO(errors.front() << " of full leaves, at most " << most);
+  CHECK(most < 1.3 * errors.front());
 }
 
 TEST_CASE("Subdomains of a few beads keep the accuracy while they grow and move") {
