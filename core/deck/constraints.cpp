@@ -449,7 +449,7 @@ class Relations {
                                 {"L_step (element)", g.L_step, true},
                                 {"air density", air(p_).density, in_air(p_)},
                                 {"air viscosity", air(p_).viscosity, in_air(p_)},
-                                {"M (magnetic field)", magnetic_norm(), magnetic_norm() != 0},
+                                {"turn in the magnetic field", turn_rate(p_), turn_rate(p_) != 0},
                                 {"noise", noise(p_).squared_amplitude(1), is_random(p_)}};
     for (const Product& product : products) {
       if (std::isfinite(product.value) && (!product.positive || std::isnormal(product.value))) continue;
@@ -464,15 +464,10 @@ class Relations {
   /// Each turn takes a few steps.
   void magnetic_turns() {
     constexpr double most_turns = 1e9;
-    const double angle = magnetic_norm() / scales(p_).time * p_.final_time;
+    const double angle = turn_rate(p_) * p_.final_time;
     error(angle > 2 * std::numbers::pi * most_turns, {"magnetic field", "final time"},
           fmt::format("beads would go round {:.0e} times in final time ({} s), which no run can follow",
                       angle / (2 * std::numbers::pi), p_.final_time));
-  }
-
-  double magnetic_norm() const {
-    const std::array<double, 3> M = magnetic_groups(p_);
-    return std::hypot(M[0], M[1], M[2]);
   }
 
   void subdomains() {

@@ -73,6 +73,9 @@ Evaporation::Evaporation(const Parameters& p)
       B_(p.viscosity_b),
       m_(p.viscosity_m),
       t_(p.relaxation_t) {
+  constexpr double solid = 0.9;  // concentration, of JETSPIN
+  // by vapour nothing stops: below 0 the activity is negative, and what a step overshoots comes back
+  if (!by_vapour_) end_ = std::min(polymer_ / solid - polymer_, solvent_at_birth());
   activity_scale_ = by_vapour_
                         ? p.vapour_density.value_or(vapour_density(p.solvent, p.temperature)) / p.density_mass
                         : vapour_pressure(SolventName::water, p.temperature) / atmosphere;
@@ -88,15 +91,8 @@ Evaporation::Evaporation(const Parameters& p)
   least_speed2_ = least * least;
 }
 
-/// By vapour nothing stops: below 0 the activity is negative, and what a step overshoots comes back.
-std::optional<double> Evaporation::end() const {
-  constexpr double solid = 0.9;  // concentration, of JETSPIN
-  if (by_vapour_) return std::nullopt;
-  return std::min(polymer_ / solid - polymer_, solvent_at_birth());
-}
-
 double Evaporation::driving(double w) const {
-  if (!by_vapour_) return w == end() ? 0 : activity_scale_ * (1 - humidity_);
+  if (!by_vapour_) return w == end_ ? 0 : activity_scale_ * (1 - humidity_);
   if (w <= -polymer_) return 0;
   const double phi = concentration(w), activity = (1 - phi) * std::exp(phi + chi_ * phi * phi);
   return activity_scale_ * (activity - humidity_);

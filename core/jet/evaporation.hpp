@@ -47,7 +47,7 @@ class Evaporation {
   double concentration(double w) const { return polymer_ / remaining(w); }
 
   /// The solvent content at which drying stops, if it does before all is gone: 0 rate at exactly this value.
-  std::optional<double> end() const;
+  std::optional<double> end() const { return end_; }
 
   /// delta, for this solvent content.
   double driving(double w) const;
@@ -65,6 +65,7 @@ class Evaporation {
  private:
   double polymer_, activity_scale_, humidity_, chi_;
   bool by_vapour_;
+  std::optional<double> end_;
   double coefficient_, least_speed2_, wind_ = 0;
   double B_, m_, t_;
 };

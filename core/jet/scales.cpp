@@ -77,6 +77,11 @@ std::array<double, 3> magnetic_groups(const Parameters& p) {
   return M;
 }
 
+double turn_rate(const Parameters& p) {
+  const std::array<double, 3> M = magnetic_groups(p);
+  return std::hypot(M[0], M[1], M[2]) / scales(p).time;
+}
+
 Gas air(const Parameters& p) {
   const Scales s = scales(p);
   const double volume = s.length * s.length * s.length, viscosity = s.length * s.velocity;

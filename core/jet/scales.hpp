@@ -50,6 +50,9 @@ std::array<double, 3> field_groups(const Parameters& p);
 /// The groups M of the three components of the magnetic field, q B mu / (m c G); zeros without one.
 std::array<double, 3> magnetic_groups(const Parameters& p);
 
+/// The angle a time by which a bead turns in the magnetic field, |q B / (m c)|, 1/s.
+double turn_rate(const Parameters& p);
+
 /// The air, scaled; it exerts forces of the scaled equations of motion.
 Gas air(const Parameters& p);
 

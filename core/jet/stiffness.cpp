@@ -79,8 +79,7 @@ Stiffness stiffness(const Parameters& p) {
   const double work = field_on_element / s.l_step * p.collector_distance / p.density_mass;
   const double drag = drag_rate(p, v, std::sqrt(v * v + std::max(2 * work, 0.0)));
   const double fastest = std::max({fastest_rate(p, s), viscous_damping(p, s, v / s.l_step), drag});
-  const std::array<double, 3> M = magnetic_groups(p);
-  return {fastest, s.time, std::min(s.l_step / v, p.final_time), drag, std::hypot(M[0], M[1], M[2]) / s.time};
+  return {fastest, s.time, std::min(s.l_step / v, p.final_time), drag, turn_rate(p)};
 }
 
 Scheme chosen_scheme(const Parameters& p) {

@@ -315,7 +315,7 @@ void March<D>::insertion() {
   ++effort_.released;
   announce(EventKind::release);
   // fed by flow, the next one is held at once
-  if (overdue(Kind::insertion, jet_.y, jet_.t) >= slack()) placement();
+  if (is_due(Kind::insertion)) placement();
 }
 
 template <int D>

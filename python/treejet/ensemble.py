@@ -7,7 +7,6 @@ left out.
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,6 +14,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from .whole_csv import write_csv
 
 if TYPE_CHECKING:
     from .sweep import Point
@@ -56,20 +57,18 @@ def ensembles(points: "list[Point]") -> "list[tuple[dict[str, str], dict[str, En
 
 def write_ensembles(path: Path, points: "list[Point]") -> None:
     """A row a setting: its values, the number of seeds, `key[unit]` with spread and standard error."""
-    rows = ensembles(points)
+    found = ensembles(points)
     units = {key: unit for point in points for key, unit in point.units.items()}
     names = [name for name in points[0].values if name != SEED]
-    keys = list(rows[0][1]) if rows else []
+    keys = list(found[0][1]) if found else []
     header = [*names, "seeds"]
     for key in keys:
         header += [f"{key}[{units[key]}]", f"spread of {key}", f"error of {key}"]
-    with open(path.with_suffix(".csv.next"), "w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(header)
-        for setting, means in rows:
-            row: "list[object]" = [*setting.values(), max((m.seeds for m in means.values()), default=0)]
-            for key in keys:
-                m = means.get(key)
-                row += [repr(m.mean), repr(m.spread), repr(m.error)] if m else [math.nan] * 3
-            table.writerow(row)
-    path.with_suffix(".csv.next").replace(path)
+    rows = []
+    for setting, means in found:
+        row: "list[object]" = [*setting.values(), max((m.seeds for m in means.values()), default=0)]
+        for key in keys:
+            m = means.get(key)
+            row += [repr(m.mean), repr(m.spread), repr(m.error)] if m else [math.nan] * 3
+        rows.append(row)
+    write_csv(path, header, rows)

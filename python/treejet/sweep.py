@@ -35,6 +35,7 @@ from .ensemble import SEED, write_ensembles
 from .errors import FileError, InputError, TreejetError
 from .means import SteadyMean, steady_means
 from .read import Run, read
+from .whole_csv import write_csv
 
 FORMAT = "treejet sweep 1"
 STOPPED = 75
@@ -243,13 +244,11 @@ def write_table(path: Path, points: "list[Point]") -> None:
     header = ["point", *names, "exit code"]
     for key, unit in unit_of.items():
         header += [f"{key}[{unit}]", f"error of {key}", f"{key} is steady"]
-    with open(path.with_suffix(".csv.next"), "w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow([*header, "message"])
-        for point in points:
-            row = [point.directory.name, *point.values.values(), point.exit_code]
-            for key in unit_of:
-                m = point.means.get(key)
-                row += [repr(m.mean), repr(m.error), "yes" if m.steady else "no"] if m else [math.nan, math.nan, ""]
-            table.writerow([*row, " ".join(point.message.split())])
-    path.with_suffix(".csv.next").replace(path)
+    rows = []
+    for point in points:
+        row = [point.directory.name, *point.values.values(), point.exit_code]
+        for key in unit_of:
+            m = point.means.get(key)
+            row += [repr(m.mean), repr(m.error), "yes" if m.steady else "no"] if m else [math.nan, math.nan, ""]
+        rows.append([*row, " ".join(point.message.split())])
+    write_csv(path, [*header, "message"], rows)
