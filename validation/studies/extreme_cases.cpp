@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <memory>
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "core/jet/field_map.hpp"
 #include "core/jet/scales.hpp"
 #include "validation/support/experiment.hpp"
 #include "validation/support/studies.hpp"
@@ -27,6 +29,7 @@ struct Extreme {
   std::vector<std::string> overrides;
   std::optional<Answer> answer;  ///< empty: a stop
   std::vector<Alteration> alterations = {};
+  std::shared_ptr<const FieldMap> map = {};  ///< in place of the plates
 };
 
 std::vector<std::string> printing(std::vector<std::string> overrides) {
@@ -157,6 +160,60 @@ std::vector<Extreme> extreme_terms() {
   return extremes;
 }
 
+/// The potential of the plates, statV, and `wave` of it in layers a spacing thick, from behind the nozzle to
+/// `end`.
+std::shared_ptr<const FieldMap> map_of_plates(const Parameters& p, double wave, double end) {
+  FieldMap::Grid grid{{35, 5, 5}, {-1, -20, -20}, {(end + 1) / 34, 10, 10}};
+  std::vector<double> potential;
+  for (int k = 0; k < 5 * 5 * grid.size[0]; ++k) {
+    const int layer = k % grid.size[0];
+    const double x = grid.origin[0] + layer * grid.spacing[0];
+    potential.push_back(p.external_potential * (1 - x / p.collector_distance + (layer % 2 ? wave : -wave)));
+  }
+  return std::make_shared<FieldMap>(grid, potential, "map of plates");
+}
+
+Parameters mapped(Parameters p, const std::shared_ptr<const FieldMap>& map) {
+  if (map) p.field_map = map->name(), p.map = map;
+  return p;
+}
+
+std::vector<Extreme> extreme_maps() {
+  const std::vector<std::string> lines = {"final time 0.002", "print time 1e-3"};
+  const Parameters p = example("pvp", lines);
+  const auto layers = map_of_plates(p, 10, 17);
+  const Outcome among_layers =
+      experiment(with(mapped(p, layers), {.scheme = Scheme::dopri5, .tolerance = 1e-10}));
+  return {{"a map of plates", "pvp", lines, as_in_another_scheme("pvp", lines), {}, map_of_plates(p, 0, 17)},
+          {"a map in layers of ten times the plates' potential",
+           "pvp",
+           lines,
+           Answer{among_layers.x(), 1e-5 * p.collector_distance},
+           {},
+           layers},
+          {"a map that ends before the jet does", "pvp", lines, {}, {}, map_of_plates(p, 0, 0.5)}};
+}
+
+/// White noise has steps of a given length, within which nothing is located: a bead is released up to a step
+/// late, which at 1e3 cm/s is 2e-5 cm, and 20 are released.
+std::vector<Extreme> extreme_noise() {
+  using Lines = std::vector<std::string>;
+  const Lines to_1_ms = {"final time 0.001", "print time 2e-4"};
+  const auto white = [&](const Lines& lines) {
+    Lines all = {"integrator sra1", "timestep 2e-8", "noise yes"};
+    std::ranges::copy(lines, std::back_inserter(all));
+    std::ranges::copy(to_1_ms, std::back_inserter(all));
+    return all;
+  };
+  Answer without_noise = as_in_another_scheme("pvp", to_1_ms);
+  without_noise.allowed = 1e-3;
+  return {{"white noise fainter than round-off", "pvp", white({"noise diffusivity 1e-30"}), without_noise},
+          {"white noise in syrup that stops a bead in a thousandth of a step",
+           "pvp",
+           white({"noise diffusivity 1e12", "noise variance 20"}),
+           {}}};
+}
+
 /// What is to be said against the table that a run left, if anything: a broken line, or an end before its
 /// time.
 std::string fault_of_table(const std::filesystem::path& file, double t_end, double interval) {
@@ -177,7 +234,7 @@ std::string fault_of_table(const std::filesystem::path& file, double t_end, doub
 Outcome outcome(const Extreme& e, const std::filesystem::path& directory) {
   try {
     Setup setup{.alterations = e.alterations, .most_evaluations = 2'000'000, .results = directory};
-    return experiment(example(e.deck, printing(e.overrides)), setup);
+    return experiment(mapped(example(e.deck, printing(e.overrides)), e.map), setup);
   } catch (const Error& error) {
     Outcome o;
     o.exit_code = error.exit_code();
@@ -209,6 +266,8 @@ void study_extreme_cases(Report& report) {
   auto all = extreme_states();
   std::ranges::move(extreme_decks(), std::back_inserter(all));
   std::ranges::move(extreme_terms(), std::back_inserter(all));
+  std::ranges::move(extreme_maps(), std::back_inserter(all));
+  std::ranges::move(extreme_noise(), std::back_inserter(all));
   for (std::size_t k = 0; k < all.size(); ++k) {
     report.progress("extreme cases", int(k), int(all.size()));
     const Extreme& e = all[k];

@@ -19,6 +19,12 @@ std::string quoted(std::string text) {
   return fmt::format("\"{}\"", text);
 }
 
+std::string header(const std::vector<std::string>& columns) {
+  std::vector<std::string> names;
+  for (const auto& c : columns) names.push_back(c.find(',') == c.npos ? c : quoted(c));
+  return fmt::format("{}\n", fmt::join(names, ","));
+}
+
 std::size_t width(const std::string& column) {
   return std::max<std::size_t>(column.size(), 11);
 }
@@ -36,7 +42,7 @@ ResultTable::ResultTable(const std::filesystem::path& directory, const std::stri
     : shown_(!title.empty()), columns_(std::move(columns)) {
   const auto path = directory / (name + ".csv");
   file_.open(path);
-  file_ << fmt::format("{}\n", fmt::join(columns_, ","));
+  file_ << header(columns_);
   if (!file_) throw FileError(path.string() + ": cannot be written");
   if (!shown_) return;
   fmt::print("\n{}\n", title);
