@@ -25,10 +25,11 @@ struct Chain {
 
   double t = 0;
   int beads = 0;
-  std::int64_t first_number = 0;  ///< bead i was the (first_number + i)-th inserted
-  Points point;                   ///< beads, [held], nozzle
-  Eigen::ArrayXd point_charge;    ///< as the Coulomb sum sees it
-  Points tangent;                 ///< per element, like all below
+  std::int64_t first_number = 0;                ///< bead i was the (first_number + i)-th inserted
+  bool from_oldest = true, to_youngest = true;  ///< false of a part of a jet: its end is not the jet's
+  Points point;                                 ///< beads, [held], nozzle
+  Eigen::ArrayXd point_charge;                  ///< as the Coulomb sum sees it
+  Points tangent;                               ///< per element, like all below
   Eigen::ArrayXd inverse_length, strain_rate, stress, inverse_mass, volume;
   const State<D>* state = nullptr;  ///< of the beads
   double held_mass = 0;             ///< of the held bead, and its volume
@@ -50,6 +51,8 @@ void set_boundary(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, d
   const Eigen::Index n = y.rows(), points = n + (jet.held ? 2 : 1);
   chain.t = t;
   chain.first_number = jet.removed;
+  chain.from_oldest = jet.from_oldest;
+  chain.to_youngest = jet.to_youngest;
   chain.beads = static_cast<int>(n);
   chain.state = &y;
   chain.nozzle_velocity = nozzle.velocity(t);

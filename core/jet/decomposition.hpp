@@ -39,6 +39,11 @@ class Decomposition {
   virtual std::int64_t beads(const Jet<D>& jet) const { return jet.size(); }
   virtual std::int64_t before(const Jet<D>& jet) const { return jet.removed; }
 
+  /// Of the bead in each row: it was the so-many-th inserted, counted from 0; without refinement.
+  virtual IdColumn numbers(const Jet<D>& jet) const {
+    return IdColumn::LinSpaced(jet.size(), jet.removed, jet.removed + jet.size() - 1);
+  }
+
   /// The greatest error of all who hold a subdomain.
   virtual double greatest(double error) const { return error; }
 

@@ -44,6 +44,7 @@ struct Jet : SolutionPoint<D> {
                              ///< (removed + i)-th inserted
   IdColumn id;               ///< of the beads, from 1 in the order of their births; none without refinement
   std::int64_t born = 0;     ///< beads that have been given an id
+  bool from_oldest = true, to_youngest = true;  ///< false of a part of a jet: its end is not the jet's
 
   Eigen::Index size() const { return this->y.rows(); }
 

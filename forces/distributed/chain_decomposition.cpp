@@ -32,8 +32,8 @@ void set_beads(Jet<3>& jet, const Beads& all) {
   for (auto each : bead_constants) jet.*each = all.row(word++).transpose();
 }
 
-/// Numbers of these beads, one by one.
-std::vector<int> numbers(const std::vector<Stretch>& stretches) {
+/// Numbers of these beads.
+std::vector<int> one_by_one(const std::vector<Stretch>& stretches) {
   std::vector<int> all;
   for (const Stretch& s : stretches)
     for (int i = s.first; i < s.last; ++i) all.push_back(i);
@@ -93,7 +93,12 @@ std::pair<Eigen::Index, Eigen::Index> ChainDecomposition::own_rows(Eigen::Index)
 }
 
 std::vector<int> ChainDecomposition::rows() const {
-  return numbers(layout_.here(ranks_.rank()));
+  return one_by_one(layout_.here(ranks_.rank()));
+}
+
+IdColumn ChainDecomposition::numbers(const Jet<3>& jet) const {
+  const std::vector<int> all = rows();
+  return jet.removed + Eigen::Map<const Eigen::ArrayXi>(all.data(), std::ssize(all)).cast<std::int64_t>();
 }
 
 /// What is not a number counts as infinite: a maximum would let it pass.
@@ -108,7 +113,7 @@ void ChainDecomposition::add_up(Eigen::Ref<Eigen::ArrayXd> numbers) const {
 /// To their holders, too: a sum turns -0 into 0.
 void ChainDecomposition::share_ends(Eigen::Ref<Eigen::ArrayXXd> table) const {
   const std::vector<Stretch> here = layout_.here(ranks_.rank());
-  const std::vector<int> ends = numbers(layout_.at_ends());
+  const std::vector<int> ends = one_by_one(layout_.at_ends());
   const Stretch mine = layout_.own(ranks_.rank());
   Beads shared = Beads::Zero(table.cols(), static_cast<Eigen::Index>(ends.size()));
   for (Eigen::Index k = 0; const int bead : ends) {

@@ -62,6 +62,7 @@ class ChainDecomposition final : public Decomposition<3> {
   std::int64_t before(const Jet<3>& jet) const override {
     return jet.removed + layout_.own(ranks_.rank()).first - own().first;
   }
+  IdColumn numbers(const Jet<3>& jet) const override;
   double greatest(double error) const override;
   void add_up(Eigen::Ref<Eigen::ArrayXd> numbers) const override;
   std::pair<Eigen::Index, Eigen::Index> own_rows(Eigen::Index rows) const override;

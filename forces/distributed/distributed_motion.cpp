@@ -47,6 +47,8 @@ void DistributedMotion::extend(const Jet<3>& jet, const State<3>& y) {
   column = y.cols();
   for (auto each : bead_constants) extended_.*each = beads.col(column++);
   extended_.removed = subdomains_.before(jet) + own.first - first_;
+  extended_.from_oldest = first_ == 0;
+  extended_.to_youngest = subdomains_.younger() < 0;
   extended_.held = jet.held && subdomains_.has_youngest();
   extended_.last_release = jet.last_release;
 }

@@ -48,7 +48,13 @@ double modulus(const BendingMoment::Setting& s, double volume_by_length) {
 }  // namespace
 
 bool BendingMoment::has_moment(const Chain<3>& c, int i) const {
-  return i > 0 && i < c.beads - (set_.fresh_youngest ? 1 : 0);
+  const int first = c.from_oldest ? 1 : 0, last = c.beads - (c.to_youngest && set_.fresh_youngest ? 1 : 0);
+  return first <= i && i < last;
+}
+
+/// Where a part of a jet begins it lacks the element below its first bead.
+bool BendingMoment::bends(const Chain<3>& c, int i) const {
+  return i > 0 && has_moment(c, i);
 }
 
 Vec<3> BendingMoment::at(const Chain<3>& c, int i) const {
@@ -57,7 +63,7 @@ Vec<3> BendingMoment::at(const Chain<3>& c, int i) const {
 }
 
 Vec<3> BendingMoment::rate(const Chain<3>& c, int i) const {
-  if (!has_moment(c, i)) return Vec<3>::Zero();
+  if (!bends(c, i)) return Vec<3>::Zero();
   Bend bend(c, i);
   bend.set_rates(c, i);
   const Vec<3> M = at(c, i), turned = bend.K_rate - bend.spin.cross(bend.K);
@@ -67,7 +73,7 @@ Vec<3> BendingMoment::rate(const Chain<3>& c, int i) const {
 }
 
 Vec<3> BendingMoment::elastic(const Chain<3>& c, int i) const {
-  if (!has_moment(c, i)) return Vec<3>::Zero();
+  if (!bends(c, i)) return Vec<3>::Zero();
   const Bend bend(c, i);
   return modulus(set_, bend.volume_by_length) / bend.l * bend.K;
 }

@@ -27,8 +27,8 @@
 /// out. No moment at both ends, nor, while the nozzle lets beads go, at the youngest bead: fresh fluid comes
 /// in straight. Waves along a straight thread obey  s (s + 1 / tau) = - B k^4 / (rho pi a^2) , k the
 /// wavenumber; on a chain k^2 is less by 1/12 (k l)^2 of itself. They are slower than waves of tension by a /
-/// l. Valid for a kappa << 1. Neighbours' moments are state, so that a chain of any range of beads will do,
-/// but ends are told from their place: the chain must be whole.
+/// l. Valid for a kappa << 1. Neighbours' moments are state, so that a chain of any range of beads will do
+/// that says which of its ends are those of the jet.
 ///
 /// M is a column a component, in the unit of G a^3 (core/jet/columns.hpp): its error counts by what a
 /// curvature of 1 / (4 l_step) makes at the nozzle. Scaled: B = F_ve a^4 / (4 a_0^2). Sources: Love,
@@ -63,6 +63,7 @@ class BendingMoment {
 
  private:
   bool has_moment(const Chain<3>& c, int bead) const;
+  bool bends(const Chain<3>& c, int bead) const;
 
   Setting set_;
 };

@@ -40,7 +40,7 @@ class Integration {
   /// `stop_here` is asked between any two steps, `end_in_sight` told once (integrators/march/march.hpp).
   Integration(const Parameters& p, const System<D>& system, std::vector<Observer<D>*> observers = {},
               std::function<bool()> stop_here = {}, std::function<void()> end_in_sight = {})
-      : stepper_(stepper<D>(p)),
+      : stepper_(stepper<D>(p, system.decomposition)),
         control_(step_control(p)),
         spacing_(p.refinement ? std::make_optional<Spacing<D>>(p) : std::nullopt),
         march({.jet = system.jet,

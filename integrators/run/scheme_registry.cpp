@@ -51,16 +51,17 @@ std::unique_ptr<Stepper<D>> stepper(Scheme scheme) {
 }
 
 template <int D>
-std::unique_ptr<Stepper<D>> stepper(const Parameters& p) {
+std::unique_ptr<Stepper<D>> stepper(const Parameters& p, const Decomposition<D>& all) {
   const Scheme scheme = chosen_scheme(p);
-  if (scheme == Scheme::sra1 && is_random(p)) return std::make_unique<Sra1<D>>(noise(p), wiener_path(p.seed));
+  if (scheme == Scheme::sra1 && is_random(p))
+    return std::make_unique<Sra1<D>>(noise(p), wiener_path(p.seed), all);
   return stepper<D>(scheme);
 }
 
 template std::unique_ptr<Stepper<1>> stepper<1>(Scheme);
 template std::unique_ptr<Stepper<3>> stepper<3>(Scheme);
-template std::unique_ptr<Stepper<1>> stepper<1>(const Parameters&);
-template std::unique_ptr<Stepper<3>> stepper<3>(const Parameters&);
+template std::unique_ptr<Stepper<1>> stepper<1>(const Parameters&, const Decomposition<1>&);
+template std::unique_ptr<Stepper<3>> stepper<3>(const Parameters&, const Decomposition<3>&);
 
 std::unique_ptr<StepControl> step_control(const Parameters& p) {
   const double time = scales(p).time;

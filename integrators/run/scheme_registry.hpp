@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "core/jet/decomposition.hpp"
 #include "core/jet/parameters.hpp"
 #include "core/jet/schemes.hpp"
 #include "core/jet/stiffness.hpp"
@@ -17,9 +18,9 @@ namespace treejet {
 template <int D>
 std::unique_ptr<Stepper<D>> stepper(Scheme scheme);
 
-/// The deck's, with its noise.
+/// The deck's, with its noise, for a jet that is held like this.
 template <int D>
-std::unique_ptr<Stepper<D>> stepper(const Parameters& p);
+std::unique_ptr<Stepper<D>> stepper(const Parameters& p, const Decomposition<D>& all = undivided<D>);
 
 std::unique_ptr<StepControl> step_control(const Parameters& p);
 

@@ -14,6 +14,7 @@
 #include <functional>
 
 #include "core/base/philox.hpp"
+#include "core/jet/decomposition.hpp"
 #include "core/jet/noise.hpp"
 #include "integrators/schemes/stepper.hpp"
 
@@ -35,7 +36,9 @@ inline WienerPath wiener_path(int seed) {
 template <int D>
 class Sra1 final : public Stepper<D> {
  public:
-  Sra1(const Noise& noise, WienerPath path) : noise_(noise), path_(std::move(path)) {}
+  /// `all`: who holds which beads.
+  Sra1(const Noise& noise, WienerPath path, const Decomposition<D>& all = undivided<D>)
+      : noise_(noise), path_(std::move(path)), all_(all) {}
   int order() const override { return 2; }
   int evaluations() const override { return 1; }
 
@@ -57,10 +60,11 @@ class Sra1 final : public Stepper<D> {
   void draw(const Jet<D>& jet, double t, double h) {
     dW_.setZero(jet.size(), D);
     Z_.setZero(jet.size(), D);
+    const IdColumn number = all_.numbers(jet);
     for (Eigen::Index i = 0; i < jet.size(); ++i) {
       const double b = std::sqrt(noise_.squared_amplitude(1 / jet.mass[i]));
       for (int k = 0; k < D && b > 0; ++k) {
-        const auto [dW, Z] = path_(jet.removed + i, k, t, h);
+        const auto [dW, Z] = path_(number[i], k, t, h);
         dW_(i, k) = b * dW;
         Z_(i, k) = b * Z;
       }
@@ -69,6 +73,7 @@ class Sra1 final : public Stepper<D> {
 
   Noise noise_;
   WienerPath path_;
+  const Decomposition<D>& all_;
   Velocities dW_, Z_;
   State<D> stage_, k2_;
 };

@@ -796,8 +796,6 @@ TEST_CASE("Each obstacle to subdomains is told alone, and keeps parallel auto fr
   met(&Parameters::system, 1, "system 1");
   met(&Parameters::coulomb, CoulombSum::direct, "direct sum needs all beads");
   met(&Parameters::coulomb_expansions, ExpansionKind::none, "coulomb expansions local");
-  met(&Parameters::integrator, Scheme::sra1, "draws for all beads");
-  met(&Parameters::bending, true, "parallel replicated");
   met(&Parameters::refinement, true, "is not refined");
 }
 

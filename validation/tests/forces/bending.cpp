@@ -230,7 +230,6 @@ TEST_CASE("Bending is refused where its moment is not known, with the way out", 
   refused({"solvent viscosity 1"}, "without yield stress, hbfluid or solvent viscosity");
   refused({"integrator kencarp5"}, "expected integrator verner6 or dopri5");
   refused({"dynamic refinement yes", "dynamic refinement tolerance 0.02"}, "expected no dynamic refinement");
-  refused({"parallel distributed", "coulomb tree"}, "expected parallel replicated");
   REQUIRE_THROWS_WITH(example("straight-jet", {"bending yes"}), Contains("does not bend"));
   CHECK_NOTHROW(example("pvp", {"bending yes"}));
 }

@@ -56,7 +56,8 @@ TEST_CASE(
     "A step is accepted with what its scheme's share permits, and does not grow right after a rejection") {
   for (double share : {1.0, 0.1}) {
     CAPTURE(share);
-    AdaptiveStep control(0.1, 5, 1, share);
+    AdaptiveStep made(0.1, 5, 1, share);
+    StepControl& control = made;
     CHECK_FALSE(control.accepts(0, 0.1, 1.01 * share));
     const double h = control.proposal(0, 1);
     CHECK(h < 0.1);

@@ -132,7 +132,10 @@ TEST_CASE("Subdomains have every local term and meet events at the ends of steps
        "self field slender"},  // elements end to dry
       {"tolerance 1.d-7", "hbfluid yes", "hbfluid consistency 1.", "hbfluid index 0.8"},
       {"timestep 2.d-7", "integrator heun", "events step"},
+      // thick and stiff: bending moves beads by a hundredth of the distance
+      {"tolerance 1.d-7", "bending yes", "nozzle cross 0.02", "elastic modulus 1.d6"},
       // pushes that go with the number of a bead since the start
+      {"timestep 2.d-7", "integrator sra1", "noise yes", "noise diffusivity 1.d6"},
       {"timestep 2.d-7", "integrator heun", "airdrag yes", "airdrag model full", "noise yes",
        "noise diffusivity 1.d6", "noise interval 3.d-6"}};
   for (const Directives& steps : scenes) {
