@@ -25,18 +25,30 @@ struct Chain {
 
   double t = 0;
   int beads = 0;
-  std::int64_t first_number = 0;                ///< bead i was the (first_number + i)-th inserted
+  std::int64_t removed = 0;                     ///< beads that have left the jet
+  const IdColumn* id = nullptr;                 ///< of the beads, none without refinement
   bool from_oldest = true, to_youngest = true;  ///< false of a part of a jet: its end is not the jet's
   Points point;                                 ///< beads, [held], nozzle
   Eigen::ArrayXd point_charge;                  ///< as the Coulomb sum sees it
   Points tangent;                               ///< per element, like all below
   Eigen::ArrayXd inverse_length, strain_rate, stress, inverse_mass, volume;
   const State<D>* state = nullptr;  ///< of the beads
-  double held_mass = 0;             ///< of the held bead, and its volume
+  /// Of all elements of the jet, as they left the nozzle, also where the chain is but its two ends
+  /// (core/jet/right_hand_side.hpp), `oldest` rows being the old one; it outlives an evaluation.
+  const Eigen::ArrayXd* volume_at_nozzle = nullptr;
+  Eigen::Index oldest = 0;
+  double held_mass = 0;  ///< of the held bead, and its volume
   Vec<D> nozzle_velocity = Vec<D>::Zero();
 
   int points() const { return static_cast<int>(point.rows()); }
   bool holds_bead() const { return points() == beads + 2; }
+
+  /// The row of the jet that row i of the chain is.
+  Eigen::Index row_of_jet(Eigen::Index i) const {
+    return i < oldest ? i : i + volume_at_nozzle->size() - beads;
+  }
+  /// Which bead row i is (core/jet/jet.hpp).
+  std::int64_t number(Eigen::Index i) const { return treejet::number(*id, removed, i); }
 
   /// Velocity of bead i, and of its upper neighbour.
   Vec<D> velocity(int i) const { return treejet::velocity<D>(*state, i); }
@@ -50,11 +62,14 @@ template <int D>
 void set_boundary(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, double t, const State<D>& y) {
   const Eigen::Index n = y.rows(), points = n + (jet.held ? 2 : 1);
   chain.t = t;
-  chain.first_number = jet.removed;
+  chain.removed = jet.removed;
+  chain.id = &jet.id;
   chain.from_oldest = jet.from_oldest;
   chain.to_youngest = jet.to_youngest;
   chain.beads = static_cast<int>(n);
   chain.state = &y;
+  chain.volume_at_nozzle = &jet.volume;
+  chain.oldest = 0;
   chain.nozzle_velocity = nozzle.velocity(t);
   chain.point.resize(points, Eigen::NoChange);
   chain.point_charge.resize(points);

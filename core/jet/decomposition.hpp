@@ -39,9 +39,9 @@ class Decomposition {
   virtual std::int64_t beads(const Jet<D>& jet) const { return jet.size(); }
   virtual std::int64_t before(const Jet<D>& jet) const { return jet.removed; }
 
-  /// Of the bead in each row: it was the so-many-th inserted, counted from 0; without refinement.
+  /// Which beads the rows are (core/jet/jet.hpp).
   virtual IdColumn numbers(const Jet<D>& jet) const {
-    return IdColumn::LinSpaced(jet.size(), jet.removed, jet.removed + jet.size() - 1);
+    return IdColumn::NullaryExpr(jet.size(), [&](Eigen::Index i) { return number(jet.id, jet.removed, i); });
   }
 
   /// The greatest error of all who hold a subdomain.

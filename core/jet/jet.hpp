@@ -95,6 +95,11 @@ void number_beads(Jet<D>& jet) {
   jet.id = IdColumn::LinSpaced(jet.size(), jet.removed + 1, jet.born);
 }
 
+/// Which bead row i is, from 0 in the order of their births, whatever becomes of its neighbours.
+inline std::int64_t number(const IdColumn& id, std::int64_t removed, Eigen::Index i) {
+  return id.size() > 0 ? id[i] - 1 : removed + i;
+}
+
 /// Every bead has its constants, and all have an id or none: so it is, unless a file says otherwise.
 template <int D>
 bool complete(const Jet<D>& jet) {

@@ -177,19 +177,49 @@ void History<D>::after_release(const Jet<D>& jet, double Q, const Decomposition<
 
 template <int D>
 int History<D>::before_refinement(const Jet<D>& jet, const Refinement& refinement, FullMotion<D>& full) {
+  if (remembered_ < count) {
+    forget();
+    return 0;
+  }
+  Jet<D> now = jet;
+  refine(now, refinement);
   State<D> slope;
-  for (int k = 0; k < remembered_; ++k) {
-    PastEvaluation<D>& m = past_[k];
-    Jet<D> past = at(jet, m.t, m.state);
-    past.held = false;
-    refine(past, refinement);
-    full(past, past.t, past.y, slope);
-    m = {past.t, full.chain(), past, full.field(), slope, full.Q()};
-    m.state = past.y;
+  full(now, now.t, now.y, slope);
+  std::array<Jet<D>, count> past;
+  for (int k = 0; k < count; ++k) {
+    past[k] = at(jet, past_[k].t, past_[k].state);
+    past[k].held = false;
+    refine(past[k], refinement);
+  }
+  lead_to(now.t, slope, past);
+  for (int k = 0; k < count; ++k) {
+    full(past[k], past[k].t, past[k].y, slope);
+    past_[k] = {past[k].t, full.chain(), past[k], full.field(), slope, full.Q()};
+    past_[k].state = past[k].y;
   }
   if (continuable(beads()))
     for (auto& m : past_) m.set_far();
-  return remembered_;
+  return count + 1;
+}
+
+/// Jets of the past that are refined as the jet of now do not move as the refined jet does: what was
+/// interpolated does not follow its forces to the last bit. Gives them the past of the latter,
+///
+///     v(t_k) += tau a ,    r(t_k) += tau u + tau^2 / 2 a ,    tau = t_k - t ,
+///
+/// columns as v; u and a, of second order in the elements, are what its slope differs in from the derivative
+/// of the parabola through them.
+template <int D>
+void History<D>::lead_to(double t, State<D> slope, std::array<Jet<D>, count>& past) const {
+  for (int k = 0; k < count; ++k) {
+    const double a = past[(k + 1) % count].t, b = past[(k + 2) % count].t, c = past[k].t;
+    slope -= (2 * t - a - b) / ((c - a) * (c - b)) * past[k].y;
+  }
+  for (Jet<D>& jet : past) {
+    const double tau = jet.t - t;
+    jet.y += tau * slope;
+    jet.y.template leftCols<D>() += tau * tau / 2 * slope.template middleCols<D>(velocity_column<D>);
+  }
 }
 
 /// Of each moment: position, charge, field, slopes.

@@ -5,9 +5,9 @@
 /// Remembered is the motion without a held bead, whose charge rises too fast to be continued. At a removal
 /// and a release the values are repaired as if the bead had always been absent or present; the past of a
 /// released bead is the straight way on which it left. For a refinement of the elements the states are
-/// remembered too, and evaluated anew as if the elements had always been the new ones. Rows are those of the
-/// jet: of one in subdomains, all fast beads and some of the others. Scaled. Source: e.g. Hairer, Norsett,
-/// Wanner, "Solving ODEs I", III.1.
+/// remembered too, led to the refined jet as it goes on, and evaluated anew as if the elements had always
+/// been the new ones. Rows are those of the jet: of one in subdomains, all fast beads and some of the others.
+/// Scaled. Source: e.g. Hairer, Norsett, Wanner, "Solving ODEs I", III.1.
 
 #include <array>
 
@@ -94,8 +94,8 @@ class History {
   void forget() { *this = {}; }
   void before_removal(const Jet<D>& jet, double Q);
   void after_release(const Jet<D>& jet, double Q, const Decomposition<D>& all = undivided<D>);
-  /// Before `refinement` of the jet: evaluates the same anew for the jets of the past, refined alike. Returns
-  /// the evaluations.
+  /// Before `refinement` of the jet: evaluates the same anew for the jets of the past, refined alike, or
+  /// forgets what was not enough for a parabola. Returns the evaluations.
   int before_refinement(const Jet<D>& jet, const Refinement& refinement, FullMotion<D>& full);
 
   /// FileError if what is read cannot be of one jet.
@@ -108,6 +108,8 @@ class History {
 
  private:
   using Points = typename Chain<D>::Points;
+
+  void lead_to(double t, State<D> slope, std::array<Jet<D>, count>& past) const;
 
   std::array<PastEvaluation<D>, count> past_;  ///< newest first
   int remembered_ = 0;

@@ -116,6 +116,7 @@ void MultirateMotion<D>::follow(const Jet<D>& jet, const State<D>& y) {
   gather_fast(jet.mass, fast_region_.jet.mass);
   gather_fast(jet.charge, fast_region_.jet.charge);
   gather_fast(jet.volume, fast_region_.jet.volume);
+  volume_ = jet.volume;
   gather_fast(y, fast_region_.jet.y);
   fast_region_.jet.held = jet.held;
   fast_region_.jet.last_release = jet.last_release;
@@ -167,6 +168,8 @@ void MultirateMotion<D>::continued_ends(const Jet<D>& jet, double t, const State
   slope.resize(n, y.cols());
   field_.resize(n + 2, Eigen::NoChange);
   set_boundary<D>(chain_, jet, local_.nozzle(), t, y);
+  chain_.volume_at_nozzle = &volume_;
+  chain_.oldest = fast_region_old;
   set_points<D>(chain_, jet, y, {0, n});
   set_near_beads(w, y, slope);
   for (const FastEnd& end : fast_ends(n, chain_.points())) {
@@ -192,21 +195,31 @@ void MultirateMotion<D>::continued_ends(const Jet<D>& jet, double t, const State
   if (local_.fed_element()) local_.bind_held(chain_, coulomb_on_held(w), slope);
 }
 
-/// Q times the field at the held bead: of the points near to the young end, and, continued from beads n-1 to
-/// n-4 along the jet, of those farther off. At 32 elements' distance or more that errs by 1e-5 of itself.
+/// Q times the field at the held bead: of the points near to the young end, and, continued from the youngest
+/// beads along the jet, of those farther off: a polynomial in the distance s from the held bead,
+///
+///     E(0) = sum_a E(s_a) prod_{b != a} s_b / (s_b - s_a) .
+///
+/// At 32 elements' distance or more that errs by 1e-6 of itself.
 template <int D>
 Vec<D> MultirateMotion<D>::coulomb_on_held(const Weights& w) {
-  constexpr int n = fast_region_beads;
+  constexpr int n = fast_region_beads, nodes = 5;
   if (!(chain_.held_mass > 0)) return Vec<D>::Zero();
   FastEnd end = fast_ends(n, chain_.points())[1];
   end.fast = {n, n + 1};
   set_near_field<D>(chain_.point, chain_.point_charge, end, field_);
   const int beads = history_.beads();
-  const Points far = history_.continuation(w, &PastEvaluation<D>::far, {beads - 4, beads});
-  const double x = chain_.volume[n - 1] / 2;  // elements from bead n-1
+  const Points far = history_.continuation(w, &PastEvaluation<D>::far, {beads - nodes, beads});
+  std::array<double, nodes> s;  // of the beads of `far`
+  s[nodes - 1] = (chain_.point.row(n - 1) - chain_.point.row(n)).matrix().norm();
+  for (int a = nodes - 1; a > 0; --a) s[a - 1] = s[a] + 1 / chain_.inverse_length[n - nodes + a - 1];
   Eigen::Array<double, 1, D> field = field_.row(n);
-  field += -x * (x + 1) * (x + 2) / 6 * far.row(0) + x * (x + 1) * (x + 3) / 2 * far.row(1) -
-           x * (x + 2) * (x + 3) / 2 * far.row(2) + (x + 1) * (x + 2) * (x + 3) / 6 * far.row(3);
+  for (int a = 0; a < nodes; ++a) {
+    double weight = 1;
+    for (int b = 0; b < nodes; ++b)
+      if (b != a) weight *= s[b] / (s[b] - s[a]);
+    field += weight * far.row(a);
+  }
   return Q() * field.matrix().transpose();
 }
 

@@ -113,6 +113,7 @@ class MultirateMotion final : public RightHandSide<D> {
   bool amplifies_ = false;  ///< the jet its short waves, so that nothing is continued
 
   FastRegion<D> fast_region_{{}, fast_region_old};
+  Eigen::ArrayXd volume_;           ///< of all elements
   Eigen::ArrayXd specific_charge_;  ///< Q q / m of the followed beads
   Chain<D> chain_;                  ///< of these
   Points field_;                    ///< of this stage

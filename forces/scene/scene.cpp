@@ -211,9 +211,7 @@ class Composer {
         : g_.Q == 0                              ? "no Coulomb sum"
         : softened()                             ? "coulomb law softened"
         : p_.evaporation                         ? "masses change with evaporation"
-        : p_.refinement && p_.self_field == SelfField::slender
-            ? "where unequal elements meet the self-field of several makes one force"
-        : !smooth_stress_ ? "the stress law has a kink or all but a jump"
+        : !smooth_stress_                        ? "the stress law has a kink or all but a jump"
         : stiffness(p_).relaxes_between_beads()
             ? "stress or drag relaxes, or the magnetic field turns beads, within their interval"
         : !hasty.empty() ? hasty.c_str()

@@ -157,7 +157,7 @@ class MappedField final : public FieldOfPlace<D, ScaledMap> {
     throw NumericalError(
         fmt::format("at scaled time {}: bead {} (number {} since the start) is at {:.4g}, {:.4g}, {:.4g} cm, "
                     "off the {}: {}; likely cause: the map is too small for the jet, or not in m",
-                    chain.t, point, chain.first_number + point, r[0], r[1], r[2], map->name(), map->box()));
+                    chain.t, point, chain.number(point), r[0], r[1], r[2], map->name(), map->box()));
   }
 };
 

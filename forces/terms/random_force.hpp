@@ -48,7 +48,7 @@ class RandomForce final : public ForceTerm<D> {
     for (int i = rows.first; i < rows.last; ++i) {
       const double size = std::sqrt(noise_.squared_amplitude(c.inverse_mass[i]) / noise_.interval);
       for (int k = 0; k < D; k += 2) {
-        const auto xi = normal_pair(noise_.seed, static_cast<std::uint32_t>(k), c.first_number + i, node);
+        const auto xi = normal_pair(noise_.seed, static_cast<std::uint32_t>(k), c.number(i), node);
         a(i, k) += size * xi[0];
         if (k + 1 < D) a(i, k + 1) += size * xi[1];
       }

@@ -105,12 +105,20 @@ double SlenderSelfField<D>::charges(const Chain<D>& c, int i) const {
   return Q_ * c.point_charge[i] * c.inverse_mass[i] * up * left(c, i + 1) / left(c, i);
 }
 
+/// Anew only where beads have come, gone or been refined.
 template <int D>
 void SlenderSelfField<D>::prepare(const Chain<D>& c, Rows, Threads) {
-  const int settled = c.beads - 1;  // elements whose volume has stopped to grow
-  if (!uneven_ || (joints_.size() == c.beads && (volume_ == c.volume.head(settled)).all())) return;
-  volume_ = c.volume.head(settled);
-  joints_ = joints_between(c.volume);
+  if (!uneven_) return;
+  const Eigen::ArrayXd& volume = *c.volume_at_nozzle;
+  if (volume_.size() == volume.size() && (volume_ == volume).all()) return;
+  volume_ = volume;
+  joints_ = joints_between(volume);
+}
+
+/// What unequal neighbours add to the tension of an element.
+template <int D>
+double SlenderSelfField<D>::joint(const Chain<D>& c, int i) const {
+  return uneven_ ? joints_[c.row_of_jet(i)] : 0;
 }
 
 template <int D>
@@ -136,13 +144,13 @@ void SlenderSelfField<D>::add(const Chain<D>& c, Rows rows, Acceleration<D>& a) 
     const bool youngest = last == c.beads;
     if (close) set_tensions<true>(elements, count - youngest, to);
     if (!close) set_tensions<false>(elements, count - youngest, to);
+    if (drying_)
+      for (int k = 0; k < count - youngest; ++k) to[k] *= left(c, element + k + 1) / left(c, element + k);
     if (uneven_)
       for (int k = 0; k < count - youngest; ++k) {
         const double line = c.volume[element + k] * c.inverse_length[element + k];
-        to[k] += charges(c, element + k) * line * line * joints_[element + k];
+        to[k] += charges(c, element + k) * line * line * joint(c, element + k);
       }
-    if (drying_)
-      for (int k = 0; k < count - youngest; ++k) to[k] *= left(c, element + k + 1) / left(c, element + k);
     if (youngest) to[count - 1] = tension_of_youngest(c);
     const auto t = columns<D>(c.tangent);
     const int between = std::max(first, 1);
@@ -202,14 +210,14 @@ Answer of_element(const Chain<D>& c, int i, Section section, double joint, doubl
 template <int D>
 double SlenderSelfField<D>::tension_of_youngest(const Chain<D>& c) const {
   return charges(c, c.beads - 1) *
-         of_youngest(c, section_, uneven_ ? joints_[c.beads - 1] : 0, left(c, c.beads - 1)).tension;
+         of_youngest(c, section_, joint(c, c.beads - 1), left(c, c.beads - 1)).tension;
 }
 
 /// T t has the derivative  T' t t' + T / l (1 - t t')  by d.
 template <int D>
 void SlenderSelfField<D>::differentiate(const Chain<D>& c, LocalJacobian<D>& J) const {
   for (int i = 0; i < c.beads; ++i) {
-    const Answer T = of_element(c, i, section_, uneven_ ? joints_[i] : 0, left(c, i));
+    const Answer T = of_element(c, i, section_, joint(c, i), left(c, i));
     using Block = Eigen::Matrix<double, D, D>;
     const Vec<D> t = c.tangent.row(i).matrix().transpose();
     const Block along = t * t.transpose();
@@ -222,7 +230,7 @@ template <int D>
 double SlenderSelfField<D>::energy(const Chain<D>& c) const {
   double sum = 0;
   const Eigen::ArrayXd joints =
-      uneven_ ? joints_between(c.volume) : Eigen::ArrayXd(Eigen::ArrayXd::Zero(c.beads));
+      uneven_ ? joints_between(*c.volume_at_nozzle) : Eigen::ArrayXd(Eigen::ArrayXd::Zero(c.beads));
   for (int i = 0; i < c.beads; ++i)
     sum += charges(c, i) * of_element(c, i, section_, joints[i], left(c, i)).energy;
   return sum;

@@ -25,7 +25,7 @@
 ///
 ///   - Where elements of unequal volume meet, which refinement brings about: g is less, and the 3/2 - g of
 ///   the
-///     tension more, by c_e of joints.hpp.
+///     tension more, by c_e of joints.hpp, of the volumes at the nozzle, to which charges are in proportion.
 ///
 /// Errors: O(a^2 / R^2) at distance R; second order in smooth spacings. A form exact at any l/a on a straight
 /// line softens the repulsion of some eight neighbours by a and has a g that is greater by 0.6 (a / l)^2; it
@@ -42,8 +42,8 @@ namespace treejet {
 template <int D>
 class SlenderSelfField final : public ForceTerm<D> {
  public:
-  /// Q: the Coulomb term's group. `uneven`: elements of unequal volume may meet; then the chain must be
-  /// whole. `drying`: the first added column is the solvent; not with `uneven`.
+  /// Q: the Coulomb term's group. `uneven`: elements of unequal volume may meet; then the chain is whole, or
+  /// the two ends of one. `drying`: the first added column is the solvent.
   SlenderSelfField(double Q, Section section, bool uneven = false,
                    const std::optional<Evaporation>& drying = {})
       : Q_(Q), section_(section), uneven_(uneven), drying_(drying) {}
@@ -58,13 +58,14 @@ class SlenderSelfField final : public ForceTerm<D> {
  private:
   double left(const Chain<D>& c, int element) const;
   double charges(const Chain<D>& c, int element) const;
+  double joint(const Chain<D>& c, int element) const;
   double tension_of_youngest(const Chain<D>& c) const;
 
   double Q_;
   Section section_;
   bool uneven_;
   std::optional<Evaporation> drying_;
-  Eigen::ArrayXd volume_, joints_;  ///< of the elements but the youngest; of all, what follows from it
+  Eigen::ArrayXd volume_, joints_;  ///< of all elements of the jet, and what follows
 };
 
 }  // namespace treejet
