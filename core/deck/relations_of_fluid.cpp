@@ -75,9 +75,6 @@ class OfFluid : Relations {
     const StressLawKind law = stress_law(p_);
     law_without_extras("evaporation", law == StressLawKind::maxwell || law == StressLawKind::kelvin_voigt,
                        "stress law maxwell or kelvin-voigt", "how the others thicken is not modelled");
-    error(p_.self_field == SelfField::slender && p_.refinement, {"evaporation", "dynamic refinement"},
-          "expected no dynamic refinement with self field slender: joints between elements go by their "
-          "charge, which no longer follows from their volume");
     const bool other = p_.solvent != SolventName::water;
     for (const char* detail : {"evaporation solvent", "evaporation vapour density", "evaporation chi"})
       error(!by_vapour && is_given(detail), {detail, "evaporation model"},

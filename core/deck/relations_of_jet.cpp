@@ -109,8 +109,6 @@ class OfJet : Relations {
                        "only of a linear law is the moment known from the strain rate of the axis");
     error(p_.evaporation, {"bending", "evaporation"},
           "expected no evaporation: the section would dry unevenly");
-    error(p_.refinement, {"bending", "dynamic refinement"},
-          "expected no dynamic refinement: moments are not split nor merged; shorter elements do instead");
     error(composable() && properties(chosen_scheme(p_)).implicit, {"bending", "integrator"},
           fmt::format("expected integrator verner6 or dopri5: kencarp5{} does not solve for moments",
                       p_.integrator == Scheme::automatic ? ", which auto takes for this scene," : ""));
@@ -132,6 +130,9 @@ class OfJet : Relations {
     note(p_.self_field == SelfField::point && p_.density_charge != 0, "dynamic refinement",
          "halving the elements of a chain of point charges changes the force on it; write self field "
          "slender for one that does not depend on them");
+    note(p_.noise && p_.noise_diffusivity.value_or(0) > 0, "dynamic refinement",
+         "noise shakes each bead by itself, so that the fluid of a split element is shaken less; that of "
+         "airdrag amplitude goes by mass and does not depend on the elements");
     const std::optional<double> l_step = element_length();
     if (!p_.refinement_threshold || !l_step) return;
     const double least = 2 * std::max(*l_step, p_.nozzle_cross);

@@ -90,6 +90,15 @@ class Middle {
   State<D> state_;
 };
 
+/// Columns of elements: the stress, and all that are added but for those of beads.
+template <int D>
+std::vector<Index> columns_of_elements(const Jet<D>& jet, const std::vector<Index>& of_beads) {
+  std::vector<Index> columns;
+  for (Index column = stress_column<D>; column < jet.y.cols(); ++column)
+    if (std::find(of_beads.begin(), of_beads.end(), column) == of_beads.end()) columns.push_back(column);
+  return columns;
+}
+
 /// The part of a bead's mass and charge that belongs to the element above it. What the oldest bead stands for
 /// beyond its element, half a cell or nothing, its mass tells.
 template <int D>
@@ -117,8 +126,9 @@ struct Kick {
 }  // namespace
 
 template <int D>
-void split(Jet<D>& jet, const std::vector<Index>& elements) {
+void split(Jet<D>& jet, const std::vector<Index>& elements, const std::vector<Index>& of_beads) {
   const Jet<D> whole = jet;
+  const std::vector<Index> of_elements = columns_of_elements(jet, of_beads);
   std::vector<Index> rows;
   for (Index i = 0, k = 0; i < whole.size(); ++i) {
     rows.push_back(i);
@@ -133,7 +143,7 @@ void split(Jet<D>& jet, const std::vector<Index>& elements) {
     const Middle<D> middle(whole, e);
     const double below = part_above(whole, e) / 2, above = (1 - part_above(whole, e + 1)) / 2;
     jet.y.row(k) = middle.state();
-    for (Index column = stress_column<D>; column < jet.y.cols(); ++column) {
+    for (const Index column : of_elements) {
       const double change = middle.change(column);
       jet.y(i, column) = whole.y(e, column) + change;
       jet.y(k, column) = whole.y(e, column) - change;
@@ -157,7 +167,8 @@ void split(Jet<D>& jet, const std::vector<Index>& elements) {
 }
 
 template <int D>
-void merge(Jet<D>& jet, const std::vector<Index>& beads) {
+void merge(Jet<D>& jet, const std::vector<Index>& beads, const std::vector<Index>& of_beads) {
+  const std::vector<Index> of_elements = columns_of_elements(jet, of_beads);
   std::vector<Index> rows;
   std::vector<Kick<D>> kicks;
   Index next = 0;
@@ -166,7 +177,7 @@ void merge(Jet<D>& jet, const std::vector<Index>& beads) {
     for (; next < k; ++next) rows.push_back(next);
     ++next;
     const double V = jet.volume[i] + jet.volume[k], below = jet.volume[k] / V;
-    for (Index column = stress_column<D>; column < jet.y.cols(); ++column)
+    for (const Index column : of_elements)
       jet.y(i, column) = (jet.volume[i] * jet.y(i, column) + jet.volume[k] * jet.y(k, column)) / V;
     Vec<D> momentum = Vec<D>::Zero();
     for (auto* constant : {&jet.mass, &jet.charge}) {
@@ -186,9 +197,9 @@ void merge(Jet<D>& jet, const std::vector<Index>& beads) {
   for (const Kick<D>& kick : kicks) kick.give(jet);
 }
 
-template void split<1>(Jet<1>&, const std::vector<Index>&);
-template void split<3>(Jet<3>&, const std::vector<Index>&);
-template void merge<1>(Jet<1>&, const std::vector<Index>&);
-template void merge<3>(Jet<3>&, const std::vector<Index>&);
+template void split<1>(Jet<1>&, const std::vector<Index>&, const std::vector<Index>&);
+template void split<3>(Jet<3>&, const std::vector<Index>&, const std::vector<Index>&);
+template void merge<1>(Jet<1>&, const std::vector<Index>&, const std::vector<Index>&);
+template void merge<3>(Jet<3>&, const std::vector<Index>&, const std::vector<Index>&);
 
 }  // namespace treejet

@@ -23,11 +23,16 @@
 /// would take, sigma is the mean by volume, and v_i, v_j += u again. A merge undoes a split to round-off, but
 /// for neighbours that are split at once.
 ///
+/// Columns that a scene adds go as the stress does, but those of beads (core/jet/columns.hpp) as position and
+/// velocity: interpolated at a split, left where they are at a merge, which takes those of bead k out.
+///
 /// Kept: sum of V, m, q and sigma V, linear momentum, all to round-off (to the bit for the first three while
-/// volumes are 1, 1/2, 1/4, ...). Not kept, by terms of second order in l: angular momentum, kinetic energy,
-/// centre of mass; what would restore them is a kick at the scale of the elements. Scaled. Columns that a
-/// scene adds go as the stress does. Sources: four-point rule: Dyn, Levin, Gregory, Comput. Aided Geom. Des.
-/// 4 (1987) 257; bounded slopes: van Leer, J. Comput. Phys. 32 (1979) 101.
+/// volumes are 1, 1/2, 1/4, ...); of a jet that dries the volume at the nozzle, with it the polymer, and the
+/// solvent; its momentum as if nothing had evaporated, for beads go by what the element above them has lost.
+/// Not kept, by terms of second order in l: angular momentum, kinetic energy, energy of bending,
+/// centre of mass; what would restore them is a kick at the scale of the elements. Scaled. Sources:
+/// four-point rule: Dyn, Levin, Gregory, Comput. Aided Geom. Des. 4 (1987) 257; bounded slopes: van Leer, J.
+/// Comput. Phys. 32 (1979) 101.
 
 #include <vector>
 
@@ -36,24 +41,28 @@
 namespace treejet {
 
 /// Splits `elements`, ascending; of a jet of n rows none may be above n - 2. The new bead of element e is the
-/// row above e.
+/// row above e. `of_beads`: columns of the state that are.
 template <int D>
-void split(Jet<D>& jet, const std::vector<Eigen::Index>& elements);
+void split(Jet<D>& jet, const std::vector<Eigen::Index>& elements,
+           const std::vector<Eigen::Index>& of_beads = {});
 
 /// Takes out `beads`, ascending, no two of them neighbours, neither the first nor the last row.
 template <int D>
-void merge(Jet<D>& jet, const std::vector<Eigen::Index>& beads);
+void merge(Jet<D>& jet, const std::vector<Eigen::Index>& beads,
+           const std::vector<Eigen::Index>& of_beads = {});
 
 /// What is done to a jet at one moment, pass by pass: rows are those that the pass before has left.
 struct RefinementPass {
   enum class Kind { split, merge } kind;
   std::vector<Eigen::Index> rows;
+  std::vector<Eigen::Index> of_beads = {};
 };
 using Refinement = std::vector<RefinementPass>;
 
 template <int D>
 void refine(Jet<D>& jet, const RefinementPass& pass) {
-  pass.kind == RefinementPass::Kind::split ? split(jet, pass.rows) : merge(jet, pass.rows);
+  pass.kind == RefinementPass::Kind::split ? split(jet, pass.rows, pass.of_beads)
+                                           : merge(jet, pass.rows, pass.of_beads);
 }
 
 template <int D>

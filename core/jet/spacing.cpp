@@ -47,7 +47,7 @@ double beyond_oldest(const Jet<D>& jet) {
 }  // namespace
 
 template <int D>
-Spacing<D>::Spacing(const Parameters& p) {
+Spacing<D>::Spacing(const Parameters& p, const Columns& added) {
   const Scales s = scales(p);
   constexpr double chord = 24;  // 1 - sin(c / 2) / (c / 2) = c^2 / 24
   if (p.refinement_threshold) longest_ = *p.refinement_threshold / s.length;
@@ -56,6 +56,8 @@ Spacing<D>::Spacing(const Parameters& p) {
   start_ = p.refinement_start / s.time;
   const double a = p.nozzle_cross / s.length;
   slender_ = 4 * a * a * groups(p).L_step;  // (2 a)^2 = 4 a_0^2 l_step V / l
+  for (std::size_t k = 0; k < added.size(); ++k)
+    if (added[k].of_bead) of_beads_.push_back(own_columns<D> + static_cast<Index>(k));
 }
 
 template <int D>
@@ -129,7 +131,7 @@ Refinement Spacing<D>::refinement(const Jet<D>& jet) const {
   using Kind = RefinementPass::Kind;
   const auto settle = [&](Kind kind, auto found) {
     for (int pass = 0; pass < most_passes; ++pass) {
-      RefinementPass next{kind, (this->*found)(trial)};
+      RefinementPass next{kind, (this->*found)(trial), of_beads_};
       if (next.rows.empty()) return;
       refine(trial, next);
       all.push_back(std::move(next));

@@ -21,6 +21,7 @@
 
 #include <limits>
 
+#include "core/jet/columns.hpp"
 #include "core/jet/parameters.hpp"
 #include "core/jet/refinement.hpp"
 
@@ -29,7 +30,8 @@ namespace treejet {
 template <int D>
 class Spacing {
  public:
-  explicit Spacing(const Parameters& p);
+  /// `added`: the columns that the scene adds to the state.
+  explicit Spacing(const Parameters& p, const Columns& added = {});
 
   /// What gives the jet the beads it needs; empty if it has them.
   Refinement refinement(const Jet<D>& jet) const;
@@ -48,7 +50,8 @@ class Spacing {
   double most_turn_ = never;  ///< of an element
   double every_ = 0;          ///< 0: at releases
   double start_ = 0;
-  double slender_ = 0;  ///< l^3 / V of an element as long as twice its radius
+  double slender_ = 0;                  ///< l^3 / V of an element as long as twice its radius
+  std::vector<Eigen::Index> of_beads_;  ///< columns
 };
 
 }  // namespace treejet

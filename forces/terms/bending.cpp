@@ -104,7 +104,8 @@ Column BendingColumn::column() const {
   return {.name = std::string("bending_") + "xyz"[component_],
           .unit = "g cm2 s-2",
           .scale = s.mass_unit,
-          .small = small_bend * modulus(s, 1 / s.section.l_step) / s.section.l_step};
+          .small = small_bend * modulus(s, 1 / s.section.l_step) / s.section.l_step,
+          .of_bead = true};
 }
 
 void BendingColumn::set(const Chain<3>& c, int, Rows rows, Eigen::Ref<Eigen::ArrayXd> rate) const {

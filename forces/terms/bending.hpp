@@ -30,9 +30,10 @@
 /// l. Valid for a kappa << 1. Neighbours' moments are state, so that a chain of any range of beads will do
 /// that says which of its ends are those of the jet.
 ///
-/// M is a column a component, in the unit of G a^3 (core/jet/columns.hpp): its error counts by what a
-/// curvature of 1 / (4 l_step) makes at the nozzle. Scaled: B = F_ve a^4 / (4 a_0^2). Sources: Love,
-/// Mathematical Theory of Elasticity, ch. 18; for viscous threads Ribe, Proc. R. Soc. A 460 (2004) 3223.
+/// M is a column a component, of the beads (a new one, where an element is split, has what is interpolated),
+/// in the unit of G a^3 (core/jet/columns.hpp): its error counts by what a curvature of 1 / (4 l_step) makes
+/// at the nozzle. Scaled: B = F_ve a^4 / (4 a_0^2). Sources: Love, Mathematical Theory of Elasticity, ch. 18;
+/// for viscous threads Ribe, Proc. R. Soc. A 460 (2004) 3223.
 
 #include "forces/terms/section.hpp"
 #include "forces/terms/term.hpp"

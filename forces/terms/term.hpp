@@ -3,7 +3,8 @@
 ///
 /// A term works on a share of rows, so that one indirect call serves a whole loop. Its stencil: for row i it
 /// reads beads i-1, i and i+1 (the nozzle or the held bead above the youngest), elements i-1 and i, time and
-/// velocities (core/jet/chain.hpp); only the Coulomb sum reads all. So multirate and subdomains may ask for
+/// velocities (core/jet/chain.hpp); of all elements the volumes at the nozzle are known, and only the Coulomb
+/// sum reads all beads. So multirate and subdomains may ask for
 /// any range of rows, with no more than its neighbours set.
 ///
 /// `prepare` runs before any `add` of the same evaluation, for ranges of rows that cover those of the `add`s,

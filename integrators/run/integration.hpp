@@ -42,7 +42,7 @@ class Integration {
               std::function<bool()> stop_here = {}, std::function<void()> end_in_sight = {})
       : stepper_(stepper<D>(p, system.decomposition)),
         control_(step_control(p)),
-        spacing_(p.refinement ? std::make_optional<Spacing<D>>(p) : std::nullopt),
+        spacing_(p.refinement ? std::make_optional<Spacing<D>>(p, system.columns) : std::nullopt),
         march({.jet = system.jet,
                .motion = system.right_hand_side,
                .stepper = *stepper_,

@@ -318,3 +318,72 @@ TEST_CASE(
   CHECK(all.size() == 9);
   CHECK(all.back() == 8);
 }
+
+namespace {
+
+/// The coil, dried unevenly: what is left of the solvent of its elements is the first of two added columns.
+Jet<3> dried_coil(int n) {
+  Jet<3> jet = coil(n);
+  State<3> y(jet.size(), own_columns<3> + 2);
+  y.leftCols<own_columns<3>>() = jet.y;
+  for (Index i = 0; i < jet.size(); ++i) {
+    const double s = double(i) / n;
+    y(i, own_columns<3>) = 0.1 + 0.7 * s + 0.1 * std::sin(9 * s);
+    y(i, own_columns<3> + 1) = std::cos(5 * s);
+  }
+  jet.y = y;
+  return jet;
+}
+
+constexpr Index solvent = own_columns<3>, of_bead = solvent + 1;
+
+}  // namespace
+
+TEST_CASE("Splits and merges of a jet that dries keep its polymer and its solvent, and dry no element more") {
+  Jet<3> jet = dried_coil(200);
+  const auto all_solvent = [&] { return (jet.volume * jet.y.col(solvent)).head(jet.size() - 1).sum(); };
+  const double polymer = jet.volume.sum(), before = all_solvent();
+  const double least = jet.y.col(solvent).minCoeff(), most = jet.y.col(solvent).maxCoeff();
+  std::mt19937 random(5);
+  for (int round = 0; round < 100; ++round) {
+    split(jet, some(random, 0, jet.size() - 1, 1));
+    while (jet.size() > 201) merge(jet, some(random, 1, jet.size() - 1, 2));
+    REQUIRE(jet.y.col(solvent).minCoeff() > least * (1 - 1e-12));
+    REQUIRE(jet.y.col(solvent).maxCoeff() < most * (1 + 1e-12));
+  }
+  // a round-off a change, of which there are 5000; polymer is a fixed part of the volume at the nozzle
+  CHECK(jet.volume.sum() == Approx(polymer).epsilon(1e-12));
+  CHECK(all_solvent() == Approx(before).epsilon(1e-12));
+}
+
+TEST_CASE("A column of beads is interpolated to fourth order by a split, and given back by a merge") {
+  std::vector<double> off;
+  for (const int n : {32, 64, 128}) {
+    const Jet<3> before = dried_coil(n);
+    Jet<3> jet = before;
+    const Index e = n / 2;
+    split<3>(jet, {e}, {of_bead});
+    off.push_back(std::abs(jet.y(e + 1, of_bead) - std::cos(5 * (double(e) + 0.5) / n)));
+    CHECK(jet.y(e, of_bead) == before.y(e, of_bead));
+    CHECK(jet.y(e + 2, of_bead) == before.y(e + 1, of_bead));
+    merge<3>(jet, {e + 1}, {of_bead});
+    CHECK((jet.y.col(of_bead) == before.y.col(of_bead)).all());
+  }
+  CHECK(orders(off)[1] > 3.8);
+}
+
+TEST_CASE("Splits of a jet know which columns a scene has for beads") {
+  Parameters p = plain_parameters();
+  p.refinement = true;
+  p.refinement_threshold = 2;
+  Jet<3> jet = dried_coil(24);
+  jet.y.leftCols<3>() *= 10;
+  const Columns added = {{.name = "solvent", .unit = "1"}, {.name = "moment", .unit = "1", .of_bead = true}};
+  const Refinement refinement = Spacing<3>(p, added).refinement(jet);
+  REQUIRE_FALSE(refinement.empty());
+  for (const RefinementPass& pass : refinement) CHECK(pass.of_beads == std::vector<Index>{of_bead});
+  const Index e = refinement[0].rows[2];
+  const double there = jet.y(e, of_bead);
+  refine(jet, refinement[0]);
+  CHECK(jet.y(e + 2, of_bead) == there);
+}

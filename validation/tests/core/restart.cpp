@@ -115,6 +115,10 @@ std::vector<Case> cases() {
                     "noise diffusivity 1.d6", "noise variance 1.d4"}),
       output_often("pvp", 2e-3,
                    {near, "system 4", "integrator 4", "timestep 1.d-6", "airdrag amplitude 1.d6"}),
+      output_often(
+          "pvp", 3e-3,
+          {"collector distance 3.", "airdrag yes", "airdrag amplitude 1.d4", "dynamic refinement yes",
+           "dynamic refinement every 2.d-4", "dynamic refinement threshold 0.05"}),
       output_often("pvp", 3e-3,
                    {"collector distance 3.", "perturb ampl 1.d-2", "self field slender",
                     "dynamic refinement yes", "dynamic refinement tolerance 1.d-2"}),

@@ -234,6 +234,23 @@ TEST_CASE("A bead is pushed by its own noise, wherever in the jet it has come to
     CHECK((pushed(noise, white, whole).bottomRows(4) == pushed(noise, white, rest)).all());
 }
 
+TEST_CASE("A bead keeps its noise when elements are split before it, and a new bead has one of its own") {
+  Noise noise;
+  noise.diffusivity = 0.5;
+  noise.interval = 1;
+  Jet<3> whole = free_beads(6, 0);
+  number_beads(whole);
+  Jet<3> refined = whole;
+  split<3>(refined, {2});
+  for (const bool white : {false, true}) {
+    const Velocities before = pushed(noise, white, whole), after = pushed(noise, white, refined);
+    CAPTURE(white);
+    CHECK((after.topRows(3) == before.topRows(3)).all());
+    CHECK((after.bottomRows(3) == before.bottomRows(3)).all());
+    for (Eigen::Index i = 0; i < 6; ++i) CHECK((before.row(i) != after.row(3)).all());
+  }
+}
+
 TEST_CASE("The noise of air goes by the inverse mass, what shakes the fluid does not") {
   Noise noise;
   noise.diffusivity = 0.25;
