@@ -120,6 +120,26 @@ void counts(const std::filesystem::path& folder, Report& report) {
 /// Ours halves those above it; with this threshold they are as long in the mean, and so apertures are alike.
 const std::string elements_as_long = "dynamic refinement threshold 0.58";
 
+/// Theirs lays elements anew every millisecond, and loses the fluid of 1 to 1.15 beads each time once the jet
+/// arrives, as runs of 1.21 show: of the 8.8 (24) and 8.0 (25) that are fed in between. Ours keeps all of it,
+/// so beads and path must be more by that, and sections likewise. What else differs is that of the other
+/// rows.
+void judge_by_loss(const Case& c, double fed, const std::vector<double>& found, Report& report) {
+  constexpr double beyond = 0.1;
+  const auto more = [&](double lost) { return 1 / (1 - lost / fed); };
+  for (const Record& r : c.records) {
+    const bool by_volume = r.key == n || r.key == lp;
+    if (!by_volume && r.key != rc) continue;
+    const double recorded = (r.low + r.high) / 2, power = by_volume ? 1 : 0.5;
+    report.differs(
+        claim(c, r.key), found[r.key],
+        {recorded, recorded * std::pow(more(1), power) * (1 - beyond),
+         recorded * std::pow(more(1.15), power) * (1 + beyond),
+         fmt::format("their refinement loses 1 to 1.15 of the {} beads' fluid that are fed between two",
+                     fed)});
+  }
+}
+
 void long_runs(const std::filesystem::path& folder, Report& report, ResultTable& table) {
   const std::vector<std::string> model = joined(as_2_0, {elements_as_long});
   const Case cases[] = {{"v2.0b-input-24",
@@ -142,10 +162,14 @@ void long_runs(const std::filesystem::path& folder, Report& report, ResultTable&
                           {yz, 2.78, 2.78},
                           {angl, 19.7, 19.7},
                           {rc, 2.77e-4, 2.77e-4}}}};
-  for (const Case& c : cases) {
-    const std::vector<double> found = steady_means(c, folder);
-    judge(c, found, 0.1, report);
-    add_row(c, found, table);
+  const double fed[] = {8.8, 8.0};  ///< beads a millisecond, of our runs
+  for (int k = 0; k < 2; ++k) {
+    const std::vector<double> found = steady_means(cases[k], folder);
+    judge_by_loss(cases[k], fed[k], found, report);
+    Case others = cases[k];
+    std::erase_if(others.records, [](const Record& r) { return r.key == n || r.key == lp || r.key == rc; });
+    judge(others, found, 0.1, report);
+    add_row(cases[k], found, table);
   }
 }
 

@@ -18,6 +18,12 @@ constexpr double widest_opening = 0.8, narrowest_opening = 0.05, opening_step = 
 /// grows by a bead errs by many times the accuracy before it is measured again.
 constexpr int least_points_of_a_rank = 32;
 
+/// Points that move may come to share a leaf with some far off, on whose scale they are one in single
+/// precision; on a chain they do not. Subdomains do without.
+bool single_serves(const CoulombRequest& request, const TreeField& tree, int block) {
+  return !tree.in_subdomains() && request.accuracy >= finest_single && !(request.points_move && block > 0);
+}
+
 TunedShape direct_because(const std::string& reason) {
   TunedShape choice;
   choice.reason = reason;
@@ -73,6 +79,7 @@ TreeShape cheapest_order(const PointCharges<3>& points, int all, const CoulombRe
   for (int block : {0, 16, 4, 1}) {
     if (request.space && *request.space != (block > 0)) continue;
     tried.block = block;
+    tried.single = single_serves(request, tree, block);
     tree.place(points, tried, threads);
     if (!alone) tree.expand(threads);
     const double work = greatest_cost(tree.count(), tree);
@@ -106,8 +113,11 @@ struct Search {
     const double narrowest =
         tree.in_subdomains() && !best.direct ? 0.6 * best.shape.opening : narrowest_opening;
     const bool pinned = request.opening.has_value();
-    for (double opening = request.opening.value_or(widest); opening > narrowest; opening *= opening_step) {
-      tree.reshape(order, opening, threads);
+    TreeShape shape = tree.shape();
+    shape.order = order;
+    shape.opening = request.opening.value_or(widest);
+    for (; shape.opening > narrowest; shape.opening *= opening_step) {
+      tree.reshape(shape, threads);
       const SampledError error = sample.error(tree, threads);
       if (error.bound <= request.accuracy || (pinned && request.order)) return consider(error);
       if (pinned) return;
@@ -134,10 +144,7 @@ void search_all(Search& search, TreeShape shape) {
   if (!whole) orders.pop_back();
   if (request.order) orders = {usual};
   for (bool single : {true, false}) {
-    // points that move may come to share a leaf with some far off, on whose scale they are one in single
-    // precision; on a chain they do not
-    if (single && (!whole || request.accuracy < finest_single || (request.points_move && shape.block > 0)))
-      continue;
+    if (single && !single_serves(request, search.tree, shape.block)) continue;
     shape.single = single;
     search.try_orders(shape, orders, widest_opening);
   }

@@ -134,7 +134,7 @@ bool CoulombSolver::keeps(const PointCharges<3>& points, int all, Threads thread
   policy_.measured(all, points.n);
   return keeps_accuracy(
       report_, request_, [&] { return sample.error(tree_, threads); },
-      [&](double opening) { tree_.reshape(report_.shape.order, opening, threads); });
+      [&](const TreeShape& shape) { tree_.reshape(shape, threads); });
 }
 
 void CoulombReport::record(const SampledError& sampled) {

@@ -60,28 +60,47 @@ struct CoulombRequest {
 /// InputError for an accuracy that is not positive or a pinned value out of range.
 void require_valid(const CoulombRequest& request);
 
-/// Whether the shape last reported is accurate enough still, or becomes so by a somewhat narrower opening,
-/// which costs less than a search. `measure` measures the present shape, `reopen` changes its opening.
+/// Whether the shape last reported is accurate enough still, or becomes so by double precision or a somewhat
+/// narrower opening, which costs less than a search. `measure` measures the present shape, `reshape` gives
+/// the tree another.
 ///
 /// Of points that move, cells that were near become far until the next measurement, all at once where they
-/// are alike: an opening must be accurate enough one step wider, too.
-template <class Measure, class Reopen>
-bool keeps_accuracy(CoulombReport& report, const CoulombRequest& request, Measure measure, Reopen reopen) {
+/// are alike: an opening must be accurate enough one step wider, too. Two points that come close to each
+/// other err by rounding, which no opening lessens: a near field in single precision is given up where the
+/// error is mostly that.
+template <class Measure, class Reshape>
+bool keeps_accuracy(CoulombReport& report, const CoulombRequest& request, Measure measure, Reshape reshape) {
+  const auto tried = [&](bool single, double opening) {
+    TreeShape shape = report.shape;
+    shape.single = single;
+    shape.opening = opening;
+    reshape(shape);
+    return measure();
+  };
+  const auto adopt = [&](bool single, double opening, const SampledError& error) {
+    report.shape.single = single;
+    report.shape.opening = opening;
+    report.record(error);
+    report.error.method = description(report);
+  };
+  const double first = report.shape.opening;
   double wider = 0;
-  if (request.points_move && !request.opening) {
-    reopen(report.shape.opening / narrowing);
-    wider = measure().bound;
-    reopen(report.shape.opening);
+  if (request.points_move && !request.opening) wider = tried(report.shape.single, first / narrowing).bound;
+  report.record(tried(report.shape.single, first));
+  if (report.shape.single && report.expected_error > request.accuracy) {
+    const SampledError precise = tried(false, first);
+    if (precise.bound < report.expected_error / 2) {
+      adopt(false, first, precise);
+      wider = 0;
+    }
   }
-  report.record(measure());
   for (int k = 0; k < narrowings && !request.opening; ++k) {
     if (std::max(wider, report.expected_error) <= request.accuracy) break;
     wider = report.expected_error;
-    report.shape.opening *= narrowing;
-    reopen(report.shape.opening);
-    report.record(measure());
-    report.error.method = description(report);
+    const double opening = report.shape.opening * narrowing;
+    adopt(report.shape.single, opening, tried(report.shape.single, opening));
   }
+  reshape(report.shape);
   return report.expected_error <= request.accuracy || (request.order && request.opening);
 }
 

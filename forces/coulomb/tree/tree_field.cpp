@@ -69,13 +69,16 @@ void TreeField::visit(Archive& state) {
     tree_.cells = Cells(tree_.points.ordered(), shape_.leaf);
 }
 
-void TreeField::reshape(int order, double opening, Threads threads) {
-  const bool same_order = order == shape_.order;
-  shape_.order = order;
-  shape_.opening = opening;
+void TreeField::reshape(const TreeShape& shape, Threads threads) {
+  const bool same_order = shape.order == shape_.order;
+  if (same_order && shape.opening == shape_.opening) {
+    shape_.single = shape.single;
+    return;
+  }
+  shape_ = shape;
   equalise_errors(threads);
   if (same_order)
-    others_.graft(tree_, opening);
+    others_.graft(tree_, shape.opening);
   else
     expand(threads);
 }

@@ -49,8 +49,8 @@ class TreeField {
   /// sees nothing of the others; moments, and what is seen of the others.
   void place(const PointCharges<3>& points, const TreeShape& shape, Threads threads, bool keep_order = false);
   void expand(Threads threads);
-  /// The same points, another order or opening.
-  void reshape(int order, double opening, Threads threads);
+  /// The same points in the same leaves; another order of expansion, opening or precision.
+  void reshape(const TreeShape& shape, Threads threads);
 
   Isa isa() const { return isa_; }
   const TreeRanks& ranks() const { return ranks_; }
