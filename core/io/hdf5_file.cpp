@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/io/division_guard.hpp"
 
 namespace treejet {
 
@@ -124,6 +125,7 @@ Handle own_dataset(hid_t file, const std::filesystem::path& path, const std::str
     if (link.type != H5L_TYPE_HARD) refuse(path, name, "is a link that may lead out of the file");
     if (end == std::string::npos) break;
   }
+  const DivisionGuard guard(path);
   Handle set(check(H5Dopen2(file, name.c_str(), H5P_DEFAULT), "cannot be read"), H5Dclose);
   const Handle content(check(H5Dget_create_plist(set), "cannot be read"), H5Pclose);
   if (H5Pget_external_count(content) != 0 || H5Pget_layout(content) == H5D_VIRTUAL)
