@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/jet/noise.hpp"
 #include "core/jet/scales.hpp"
 #include "core/jet/schemes.hpp"
 #include "core/jet/stiffness.hpp"
@@ -133,6 +134,9 @@ class OfJet : Relations {
     note(p_.noise && p_.noise_diffusivity.value_or(0) > 0, "dynamic refinement",
          "noise shakes each bead by itself, so that the fluid of a split element is shaken less; that of "
          "airdrag amplitude goes by mass and does not depend on the elements");
+    note(is_random(p_) && p_.refinement_tolerance, "dynamic refinement tolerance",
+         "noise bends a jet from bead to bead, however short its elements are: they are split down to "
+         "twice their radius; dynamic refinement threshold goes by their length alone");
     const std::optional<double> l_step = element_length();
     if (!p_.refinement_threshold || !l_step) return;
     const double least = 2 * std::max(*l_step, p_.nozzle_cross);

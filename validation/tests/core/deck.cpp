@@ -619,6 +619,18 @@ TEST_CASE("A deck keeps its source, its name and its overrides", "[deck]") {
   CHECK(deck.notes.empty());
 }
 
+TEST_CASE("Refinement by curvature of a jet that noise bends from bead to bead is noted", "[deck]") {
+  const auto notes = [](const char* refining) {
+    const std::vector<std::string> lines = {
+        "airdrag yes",        "airdrag amplitude 1.",           "dynamic refinement yes",
+        "self field slender", "dynamic refinement every 1.d-3", refining};
+    return fmt::format("{}", fmt::join(parse_deck(sound_deck, name, lines).notes, "\n"));
+  };
+  const char* says = "split down to twice their radius";
+  CHECK(notes("dynamic refinement tolerance 1.d-2").find(says) != std::string::npos);
+  CHECK(notes("dynamic refinement threshold 0.5").find(says) == std::string::npos);
+}
+
 TEST_CASE("What has no effect is noted, not refused", "[deck]") {
   for (const auto& [line, essential] :
        std::map<std::string, std::string>{{"seed 317", "jet.dat:20: seed 317: no effect"},
