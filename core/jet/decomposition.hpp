@@ -72,6 +72,9 @@ class Decomposition {
     take(some);
   }
 
+  /// The jet becomes what is to be here of a whole one.
+  virtual void take(Jet<D>& jet, const Jet<D>& all) { jet = all; }
+
   /// The jet in a checkpoint: what all ranks know of it, and the records behind that.
   virtual void visit(Jet<D>& jet, Archive& state) { state(jet); }
   virtual std::int64_t records() const { return 0; }
@@ -88,18 +91,9 @@ inline Decomposition<D> undivided;
 /// The whole jet, on the rank that writes files: for few beads only.
 template <int D>
 Jet<D> whole(const Decomposition<D>& decomposition, const Jet<D>& jet) {
-  Jet<D> all = at<D>(jet, jet.t, jet.y.topRows(0));
-  for (auto* constants : {&all.mass, &all.charge, &all.volume}) constants->resize(0);
-  decomposition.in_portions(jet, std::numeric_limits<std::int64_t>::max(), [&](const Jet<D>& some) {
-    const auto join = [](auto& to, const auto& more) {
-      to.conservativeResize(to.rows() + more.rows(), Eigen::NoChange);
-      to.bottomRows(more.rows()) = more;
-    };
-    join(all.y, some.y);
-    join(all.mass, some.mass);
-    join(all.charge, some.charge);
-    join(all.volume, some.volume);
-  });
+  Jet<D> all = without_beads(jet);
+  decomposition.in_portions(jet, std::numeric_limits<std::int64_t>::max(),
+                            [&](const Jet<D>& some) { append(all, some); });
   return all;
 }
 

@@ -88,6 +88,18 @@ void append(Jet<D>& jet, const Bead<D>& bead) {
   }
 }
 
+/// Appends beads with what is constant in them, without slopes.
+template <int D>
+void append(Jet<D>& jet, const Jet<D>& more) {
+  const auto join = [](auto& to, const auto& rows) {
+    to.conservativeResize(to.rows() + rows.rows(), Eigen::NoChange);
+    to.bottomRows(rows.rows()) = rows;
+  };
+  join(jet.y, more.y);
+  for (auto each : {&Jet<D>::mass, &Jet<D>::charge, &Jet<D>::volume}) join(jet.*each, more.*each);
+  join(jet.id, more.id);
+}
+
 /// Gives the beads ids: from now on `removed + i` does not tell one from another.
 template <int D>
 void number_beads(Jet<D>& jet) {
@@ -123,6 +135,15 @@ Jet<D> at(const Jet<D>& jet, double t, const State<D>& y) {
   then.id = jet.id;
   then.born = jet.born;
   return then;
+}
+
+/// What a jet is beside its beads, of which it has none.
+template <int D>
+Jet<D> without_beads(const Jet<D>& jet) {
+  Jet<D> none = at<D>(jet, jet.t, jet.y.topRows(0));
+  for (auto* constants : {&none.mass, &none.charge, &none.volume}) constants->resize(0);
+  none.id.resize(0);
+  return none;
 }
 
 /// Length of the polygon from the oldest bead to `end`, the nozzle or what follows the youngest row.

@@ -57,6 +57,11 @@ void expect_absent(const Parameters& p, const std::filesystem::path& directory) 
   }
 }
 
+/// White noise has no slope that its change is the integral of.
+bool has_step_errors(const Parameters& p) {
+  return !properties(p.integrator).adaptive && p.integrator != Scheme::sra1;
+}
+
 /// Sends its subdomain of what another rank writes: the oldest `most` beads.
 template <int D>
 class Contribution final : public Sampling<D> {
@@ -128,7 +133,7 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
     watch("traj.h5", std::make_unique<Frames>(frames, hdf5), decomposition);
   }
   if (!files_.empty()) keep_record(setting);
-  look_for_trouble(p, nozzle, collector);
+  look_for_trouble(p, nozzle, collector, decomposition);
   if (!setting.quiet) {
     watchers_.push_back({"", std::make_unique<Progress<D>>(p.final_time / s.time, s.time,
                                                            stderr_is_interactive(), decomposition)});
@@ -136,14 +141,13 @@ Outputs<D>::Outputs(const Parameters& p, const Nozzle<D>& nozzle, const Collecto
 }
 
 template <int D>
-void Outputs<D>::look_for_trouble(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector) {
+void Outputs<D>::look_for_trouble(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
+                                  const Decomposition<D>& decomposition) {
   const double time_unit = scales(p).time;
   if (force_error_)
     watchers_.push_back({"accuracy", std::make_unique<AccuracyWarning<D>>(*force_error_, time_unit)});
-  // white noise has no slope that its change is the integral of
-  if (!properties(p.integrator).adaptive && p.integrator != Scheme::sra1 &&
-      p.parallel == ParallelData::replicated) {
-    auto errors = std::make_unique<StepErrors<D>>(nozzle, collector, event_rule(p), time_unit);
+  if (has_step_errors(p)) {
+    auto errors = std::make_unique<StepErrors<D>>(nozzle, collector, event_rule(p), time_unit, decomposition);
     step_errors_ = errors.get();
     watchers_.push_back({"fixed step", std::move(errors)});
   }
@@ -177,6 +181,10 @@ void Outputs<D>::contribute(const Parameters& p, const Nozzle<D>& nozzle, const 
   };
   if (p.print_xyz) contribution("traj.xyz", *p.print_xyz, p.xyz_maxnum);
   if (p.print_hdf5) contribution("traj.h5", *p.print_hdf5, std::numeric_limits<std::int64_t>::max());
+  if (has_step_errors(p))
+    watchers_.push_back(
+        {"fixed step", std::make_unique<StepErrors<D>>(nozzle, collector, event_rule(p), s.time,
+                                                       decomposition, /*silent*/ true)});
 }
 
 template <int D>

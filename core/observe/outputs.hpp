@@ -73,7 +73,8 @@ class Outputs {
   std::shared_ptr<H5mdTrajectory> trajectory_file(const Parameters& p, const OutputSetting& setting,
                                                   const OwnObservables<D>& own);
   void keep_record(const OutputSetting& setting);
-  void look_for_trouble(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector);
+  void look_for_trouble(const Parameters& p, const Nozzle<D>& nozzle, const Collector& collector,
+                        const Decomposition<D>& decomposition);
 
   struct Named {
     std::string name;  ///< of the part of a checkpoint that tells its state; empty: it remembers nothing

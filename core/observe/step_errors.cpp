@@ -3,22 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/observe/progress.hpp"
 
 namespace treejet {
-
-namespace {
-
-/// Of the change of these columns over two steps, the part that the rates do not account for.
-template <class Columns>
-double unaccounted(const Columns& change, const Columns& by_rates) {
-  const double size = by_rates.square().sum();
-  return size > 0 ? std::sqrt((change - by_rates).square().sum() / size) : 0;
-}
-
-}  // namespace
 
 void Lateness::add(double t, double late) {
   if (count++ == 0) first = t;
@@ -48,7 +38,6 @@ void StepErrors<D>::see_steps(const DenseOutput<D>& segment) {
   }
   ++steps_;
   const double h = to.t - from.t;
-  constexpr double round_off = 1e-6;  // of a step, in a time of many steps
   if (begin_.y.rows() == 0) {
     if (steps_ % steps_a_sample != 1) return;
     begin_ = from;
@@ -56,20 +45,43 @@ void StepErrors<D>::see_steps(const DenseOutput<D>& segment) {
     middle_slope_ = to.slope;
     return;
   }
-  // an event or a kink between the two has changed beads or slopes
-  const bool goes_on = from.t == middle_ && std::abs(middle_ - begin_.t - h) < round_off * h &&
-                       from.slope.rows() == begin_.y.rows() && (from.slope == middle_slope_).all();
-  if (goes_on) {
-    const State<D> change = to.y - begin_.y;
-    const State<D> by_rates = h / 3 * (begin_.slope + 4 * middle_slope_ + to.slope);
-    const auto of = [&](Eigen::Index column, Eigen::Index columns) {
-      return unaccounted<Eigen::ArrayXXd>(change.middleCols(column, columns),
-                                          by_rates.middleCols(column, columns));
-    };
-    sum_ += std::max({of(0, D), of(velocity_column<D>, D), of(stress_column<D>, 1)});
+  if (goes_on(from, h)) {
+    sum_ += error_of_two_steps(to, h);
     ++samples_;
   }
   begin_ = {};
+}
+
+/// An event or a kink between the two steps has changed beads or slopes, on one rank at least.
+template <int D>
+bool StepErrors<D>::goes_on(const SolutionPoint<D>& from, double h) const {
+  constexpr double round_off = 1e-6;  // of a step, in a time of many steps
+  if (from.t != middle_ || !(std::abs(middle_ - begin_.t - h) < round_off * h)) return false;
+  const bool same = from.slope.rows() == begin_.y.rows() && (from.slope == middle_slope_).all();
+  return all_.greatest(same ? 0 : 1) == 0;
+}
+
+/// Of the change of position, velocity or stress over two steps, the part that the rates do not account for.
+template <int D>
+double StepErrors<D>::error_of_two_steps(const SolutionPoint<D>& to, double h) const {
+  const State<D> change = to.y - begin_.y;
+  const State<D> by_rates = h / 3 * (begin_.slope + 4 * middle_slope_ + to.slope);
+  const auto [first, last] = all_.own_rows(change.rows());
+  constexpr std::array<std::array<Eigen::Index, 2>, 3> columns = {
+      {{0, D}, {velocity_column<D>, D}, {stress_column<D>, 1}}};
+  Eigen::ArrayXd sums(6);  // squares of what is unaccounted for, and of what is not
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const auto [column, count] = columns[static_cast<std::size_t>(k)];
+    const Eigen::ArrayXXd rates = by_rates.block(first, column, last - first, count);
+    const Eigen::ArrayXXd all = change.block(first, column, last - first, count);
+    sums[k] = (all - rates).square().sum();
+    sums[3 + k] = rates.square().sum();
+  }
+  all_.add_up(sums);
+  double most = 0;
+  for (Eigen::Index k = 0; k < 3; ++k)
+    if (sums[3 + k] > 0) most = std::max(most, std::sqrt(sums[k] / sums[3 + k]));
+  return most;
 }
 
 /// At the end of a step before its events, which are found there by the same measure.
@@ -99,7 +111,7 @@ double StepErrors<D>::lateness() const {
 template <int D>
 void StepErrors<D>::warn_if_large(double t) {
   constexpr double large = 1e-3;
-  if (warned_ || !(step_error() > large || lateness() > large)) return;
+  if (silent_ || warned_ || !(step_error() > large || lateness() > large)) return;
   warned_ = true;
   warn_at(t * time_unit_,
           fmt::format("the timestep is too long for results to 0.1 %: {}; a shorter timestep, or tolerance "
@@ -125,7 +137,11 @@ std::vector<std::pair<std::string, double>> StepErrors<D>::results() const {
 
 template <int D>
 void StepErrors<D>::visit(Archive& state) {
-  state(begin_, middle_slope_, middle_, steps_, samples_, sum_, insertion_, removal_, warned_);
+  SolutionPoint<D> lost;  // these are rows of one rank, and of one cut
+  State<D> lost_slope;
+  const bool keeps = !all_.in_subdomains();
+  state(keeps ? begin_ : lost, keeps ? middle_slope_ : lost_slope, middle_, steps_, samples_, sum_,
+        insertion_, removal_, warned_);
 }
 
 template class StepErrors<1>;

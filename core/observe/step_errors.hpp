@@ -16,13 +16,15 @@
 /// events this is the error of the flow rate; of removals that of the time of arrival. Located events are
 /// never late.
 ///
-/// A mean above 1e-3 is warned of, once. A chain held in subdomains has no step error of the whole. Scaled.
+/// A mean above 1e-3 is warned of, once. Of a chain held in subdomains all ranks
+/// add up what they have of it. A sample that a checkpoint cuts there is lost. Scaled.
 
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/jet/collector.hpp"
+#include "core/jet/decomposition.hpp"
 #include "core/jet/nozzle.hpp"
 #include "core/jet/observer.hpp"
 
@@ -42,8 +44,15 @@ struct Lateness {
 template <int D>
 class StepErrors final : public Observer<D> {
  public:
-  StepErrors(const Nozzle<D>& nozzle, const Collector& collector, EventRule events, double time_unit)
-      : nozzle_(nozzle), collector_(collector), events_(events), time_unit_(time_unit) {}
+  /// `silent`: it only adds its part to what another rank tells.
+  StepErrors(const Nozzle<D>& nozzle, const Collector& collector, EventRule events, double time_unit,
+             const Decomposition<D>& all = undivided<D>, bool silent = false)
+      : nozzle_(nozzle),
+        collector_(collector),
+        events_(events),
+        time_unit_(time_unit),
+        all_(all),
+        silent_(silent) {}
 
   void segment(const Jet<D>& jet, const DenseOutput<D>& segment) override;
   void finish(const Jet<D>& jet) override { warn_if_large(jet.t); }
@@ -64,6 +73,8 @@ class StepErrors final : public Observer<D> {
   static constexpr int steps_a_sample = 16;
 
   void see_steps(const DenseOutput<D>& segment);
+  bool goes_on(const SolutionPoint<D>& from, double h) const;
+  double error_of_two_steps(const SolutionPoint<D>& to, double h) const;
   void see_events(const Jet<D>& jet, const DenseOutput<D>& segment);
   void warn_if_large(double t);
 
@@ -71,6 +82,8 @@ class StepErrors final : public Observer<D> {
   const Collector& collector_;
   EventRule events_;
   double time_unit_;
+  const Decomposition<D>& all_;
+  bool silent_;
   SolutionPoint<D> begin_;  ///< of a sample, empty until it begins
   State<D> middle_slope_;
   double middle_ = 0;

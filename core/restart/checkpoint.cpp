@@ -262,6 +262,13 @@ void Checkpoints::conclude(Checkpoint* state) const {
   for (const char* name : {unfinished, newest, older}) fs::remove(directory_ / name, error);
 }
 
+void Checkpoints::conclude_with_newest() const {
+  put_in_place(directory_ / newest, directory_ / last);
+  force_to_disk(directory_);
+  std::error_code error;
+  for (const char* name : {unfinished, older}) fs::remove(directory_ / name, error);
+}
+
 void Checkpoints::remove() const {
   for (const char* name : {unfinished, newest, older, last}) {
     std::error_code error;

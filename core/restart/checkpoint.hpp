@@ -123,6 +123,8 @@ class Checkpoints {
       const std::function<void(const WriteRecord&)>& give_records = [](const WriteRecord&) {}) const;
   /// The run has come to its end, and leaves this state.
   void conclude(Checkpoint* last) const;
+  /// The same with the newest checkpoint, which is that state.
+  void conclude_with_newest() const;
   /// The run takes the place of another.
   void remove() const;
 

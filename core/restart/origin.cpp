@@ -12,6 +12,7 @@
 #include "core/deck/directives.hpp"
 #include "core/deck/units.hpp"
 #include "core/io/h5md.hpp"
+#include "core/jet/saved_chain.hpp"
 #include "core/jet/scales.hpp"
 
 namespace treejet {
@@ -71,13 +72,35 @@ Origin from_checkpoint(const fs::path& path) {
   refuse(o, fmt::format("its beads carry no {}, which those of this deck do", c.name));
 }
 
+/// The checkpoint's jet, from wherever its beads are; the state has so many columns.
+template <int D>
+Jet<D> saved_jet(const Checkpoint& checkpoint, Eigen::Index columns) {
+  Jet<D> jet;
+  if (checkpoint.records == 0) {
+    checkpoint.state.beginning_of_part("march", jet);
+    return jet;
+  }
+  jet.y.resize(0, columns);
+  SavedCut<D> cut{jet, columns, {}};
+  checkpoint.state.beginning_of_part("march", cut);
+  records_of(checkpoint)([](std::int64_t, std::int64_t count) { return count > 0; },
+                         [&](const SubdomainRecord& record) {
+                           SavedBeads<D> some;
+                           Archive archive(record.bytes);
+                           archive(some);
+                           expect_complete(some, record.count, columns);
+                           append(jet, some.jet);
+                         });
+  if (jet.size() != cut.borders.back()) throw FileError("the checkpoint lacks beads of the jet");
+  return jet;
+}
+
 /// The checkpoint's jet, whose scales are those of its own deck, in those of another.
 template <int D>
 Jet<D> rescaled(const Origin& o, const Parameters& p, const Columns& added) {
-  Jet<D> jet;
-  o.checkpoint->state.beginning_of_part("march", jet);
   std::vector<SavedColumn> saved;
   if (o.checkpoint->state.has(columns_part)) o.checkpoint->state.beginning_of_part(columns_part, saved);
+  Jet<D> jet = saved_jet<D>(*o.checkpoint, own_columns<D> + std::ssize(saved));
   if (!complete(jet) || jet.y.cols() != own_columns<D> + std::ssize(saved))
     refuse(o, "its beads lack constants or columns");
   const Parameters& before = o.deck.parameters;
@@ -183,11 +206,12 @@ Origin origin(const std::string& place) {
 
 namespace {
 
-/// What the two decks say differently of all that concerns the motion.
+/// What the two decks say differently of all that concerns the motion, but for who holds its beads.
 std::vector<std::string> other_motion(const Origin& o, const Parameters& p) {
   Parameters same_outputs = o.deck.parameters;
   same_outputs.final_time = p.final_time;
   same_outputs.checkpoint = p.checkpoint;
+  same_outputs.parallel = p.parallel;
   same_outputs.print_time = p.print_time;
   same_outputs.print_list = p.print_list;
   same_outputs.printstat_list = p.printstat_list;
@@ -207,8 +231,9 @@ std::string description(const Origin& o, const Parameters& p) {
   return text;
 }
 
-CheckpointParts* steps_of(Origin& o, const Parameters& p) {
-  return o.checkpoint && other_motion(o, p).empty() ? &o.checkpoint->state : nullptr;
+Checkpoint* steps_of(Origin& o, const Parameters& p) {
+  const bool alike = o.checkpoint && (o.checkpoint->records > 0) == (p.parallel == ParallelData::distributed);
+  return alike && other_motion(o, p).empty() ? &*o.checkpoint : nullptr;
 }
 
 template <int D>
@@ -218,13 +243,9 @@ Jet<D> jet_of(const Origin& o, const Parameters& p, const Columns& added) {
     refuse(o, fmt::format("it is of system {}, the deck of system {}", before.system, p.system));
   if ((scales(before).charge == 0) != (scales(p).charge == 0))
     refuse(o, "one of the two jets has no charge, so that their lengths have no common scale");
-  if (p.parallel == ParallelData::distributed)
-    throw InputError("--from: a run with parallel distributed begins with the deck's initial jet");
   if (p.final_time <= o.t)
     refuse(o, fmt::format("it is at t = {:.10g} s; expected a final time beyond, found {:g} s", o.t,
                           p.final_time));
-  if (o.checkpoint && o.checkpoint->records > 0)
-    refuse(o, "its beads are in subdomains; begin with a frame, DIR@t");
   const Jet<D> jet = o.checkpoint ? rescaled<D>(o, p, added) : of_frame<D>(o, p, added);
   expect_sound(o, p, jet);
   return jet;

@@ -13,7 +13,9 @@
 /// What may differ between the two decks: all but `system` and a charge density of 0 on one side only;
 /// columns that the new scene adds must be there. The other run is left as it is. Where only outputs, final
 /// time and checkpoints differ, a checkpoint also gives the history of the steps, and the jet goes on to the
-/// bit as the other one would; fcn and fcc, differences of sums since the start, may round otherwise.
+/// bit as the other one would; fcn and fcc, differences of sums since the start, may round otherwise. Either
+/// run may hold its jet in subdomains: its steps go on if both do, to the bit on as many ranks. Each rank of
+/// the new one reads the whole state once.
 ///
 /// Errors: FileError if there is no such state, InputError if the deck cannot begin with it.
 
@@ -42,8 +44,8 @@ Origin origin(const std::string& place);
 /// "results/checkpoint.end, t = 0.0499 s", and how the decks differ.
 std::string description(const Origin& origin, const Parameters& p);
 
-/// The checkpoint's march, where its steps can be gone on with.
-CheckpointParts* steps_of(Origin& origin, const Parameters& p);
+/// The checkpoint, where its steps can be gone on with.
+Checkpoint* steps_of(Origin& origin, const Parameters& p);
 
 /// Its jet in the scales of a deck, with the columns that its scene adds.
 template <int D>

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/jet/saved_chain.hpp"
 
 namespace treejet {
 
@@ -38,21 +39,6 @@ std::vector<int> one_by_one(const std::vector<Stretch>& stretches) {
   for (const Stretch& s : stretches)
     for (int i = s.first; i < s.last; ++i) all.push_back(i);
   return all;
-}
-
-/// A jet and what is carried along, as a checkpoint has them.
-struct Saved {
-  Jet<3> jet;
-  Eigen::ArrayXXd carried = Eigen::ArrayXXd(0, 0);
-  void visit(Archive& state) { state(jet, carried); }
-};
-
-void expect_complete(const Saved& saved, std::int64_t count, Eigen::Index columns, Eigen::Index carried) {
-  const Jet<3>& jet = saved.jet;
-  const bool sound = complete(jet) && jet.size() == count && jet.slope.rows() == count &&
-                     jet.y.cols() == columns && jet.slope.cols() == columns &&
-                     saved.carried.cols() == carried && (carried == 0 || saved.carried.rows() == count);
-  if (!sound) throw FileError("the checkpoint has beads without a mass, a charge, a volume or a velocity");
 }
 
 }  // namespace
@@ -200,6 +186,14 @@ void ChainDecomposition::arrange(Jet<3>& jet, const Layout& had) {
   set_carried_(all.bottomRows(words - jet.y.cols() - Eigen::Index{bead_constants.size()}).transpose());
 }
 
+void ChainDecomposition::take(Jet<3>& jet, const Jet<3>& all) {
+  cut(static_cast<int>(all.size()));
+  const std::vector<int> here = rows();
+  jet = without_beads(all);
+  jet.y = all.y(here, Eigen::all);
+  for (auto each : bead_constants) jet.*each = (all.*each)(here);
+}
+
 /// Every element belongs to the bead at its lower end.
 double ChainDecomposition::path_length(const State<3>& y, const Vec<3>& nozzle) const {
   const Rows own = this->own();
@@ -235,7 +229,7 @@ void for_each_portion(const Layout& layout, std::int64_t most,
 
 /// Of a rank's beads: with slopes, and what is carried along, if the jet has slopes.
 std::string ChainDecomposition::portion(const Jet<3>& jet, int rank, Stretch beads) const {
-  Saved some;
+  SavedBeads<3> some;
   if (rank == ranks_.rank()) {
     const int row = own().first + beads.first - layout_.own(rank).first, n = beads.size();
     some.jet.t = jet.t;
@@ -257,7 +251,7 @@ void ChainDecomposition::in_portions(const Jet<3>& jet, std::int64_t most,
   for_each_portion(layout_, most, [&](int rank, Stretch beads) {
     const std::string bytes = portion(jet, rank, beads);
     if (!ranks_.first()) return;
-    Saved some;
+    SavedBeads<3> some;
     Archive archive(bytes);
     archive(some);
     take(some.jet);
@@ -265,17 +259,14 @@ void ChainDecomposition::in_portions(const Jet<3>& jet, std::int64_t most,
 }
 
 void ChainDecomposition::visit(Jet<3>& jet, Archive& state) {
-  std::vector<int> borders = layout_.borders;
-  Eigen::Index columns = jet.y.cols();
-  state(jet.t, jet.held, jet.last_release, jet.removed, columns, borders, recuts_);
+  SavedCut<3> saved{jet, jet.y.cols(), layout_.borders, recuts_};
+  state(saved);
   if (!state.reading()) return;
-  if (columns != jet.y.cols() || borders.empty() || borders[0] != 0 ||
-      !std::is_sorted(borders.begin(), borders.end()))
-    throw FileError("the checkpoint's jet cannot be cut into subdomains");
-  cut(borders.back());
-  cut_as_saved_ = borders.size() == layout_.borders.size();
-  if (cut_as_saved_) layout_.borders = borders;
-  for (auto* table : {&jet.y, &jet.slope}) table->resize(0, columns);
+  recuts_ = saved.recuts;
+  cut(saved.borders.back());
+  cut_as_saved_ = saved.borders.size() == layout_.borders.size();
+  if (cut_as_saved_) layout_.borders = saved.borders;
+  for (auto* table : {&jet.y, &jet.slope}) table->resize(0, saved.columns);
   for (auto each : bead_constants) (jet.*each).resize(0);
 }
 
@@ -320,9 +311,11 @@ void ChainDecomposition::read(Jet<3>& jet, const ReadRecords& records) {
   records(wanted, [&](const SubdomainRecord& record) {
     Archive archive(record.bytes);
     if (record.count == 0) return own_state_(archive), archive.expect_end();
-    Saved some;
+    SavedBeads<3> some;
     archive(some);
-    expect_complete(some, record.count, columns, carried.cols());
+    expect_complete(some, record.count, columns);
+    if (some.carried.cols() != carried.cols() || (carried.cols() > 0 && some.carried.rows() != record.count))
+      throw FileError("the checkpoint remembers less of its beads than of the jet");
     for (const Stretch& part : parts_here(record.first, record.count)) {
       const Eigen::Index row = place_of(part.first, here), from = part.first - record.first, m = part.size();
       jet.y.middleRows(row, m) = some.jet.y.middleRows(from, m);

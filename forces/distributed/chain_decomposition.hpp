@@ -72,6 +72,8 @@ class ChainDecomposition final : public Decomposition<3> {
   void in_portions(const Jet<3>& jet, std::int64_t most,
                    const std::function<void(const Jet<3>& some)>& take) const override;
 
+  void take(Jet<3>& jet, const Jet<3>& all) override;
+
   void visit(Jet<3>& jet, Archive& state) override;
   std::int64_t records() const override;
   void write(const Jet<3>& jet, const WriteRecord& write) const override;

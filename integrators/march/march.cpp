@@ -226,8 +226,9 @@ void March<D>::visit(Archive& state) {
 }
 
 template <int D>
-void March<D>::take_over(Archive& state) {
+void March<D>::take_over(Archive& state, const std::function<void()>& read_beads) {
   visit(state);
+  read_beads();
   for (auto* w : parts_.observers) w->start(jet_);
 }
 

@@ -72,8 +72,9 @@ class March {
   /// All between two steps: the march, what it moves and by what rules. Not the watchers.
   void visit(Archive& state);
 
-  /// Goes on from another march, whose state is read, with watchers that see this as the start.
-  void take_over(Archive& state);
+  /// Goes on from another march, whose state is read, and by `read_beads` what of it stands elsewhere, with
+  /// watchers that see this as the start.
+  void take_over(Archive& state, const std::function<void()>& read_beads);
 
  private:
   enum class Kind { insertion, removal, ending };

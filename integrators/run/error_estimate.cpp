@@ -67,10 +67,6 @@ double greatest(const TableOfRows& table, std::size_t column) {
 void expect_estimable(const Parameters& p) {
   if (p.printstat_list.empty())
     throw InputError("--estimate-error: the deck has no printstat list, whose rows it is for");
-  if (p.parallel == ParallelData::distributed)
-    throw InputError(
-        "--estimate-error: not with parallel distributed; did you mean a second run at a tenth of the "
-        "tolerance?");
 }
 
 Parameters finer(Parameters p) {
@@ -118,6 +114,7 @@ std::optional<TableOfRows> rows_of_run(const Parameters& p, Scene<D>& scene, con
   TableOfRows table{labels(p.printstat_list, own), {}};
   Recorder<D> recorder(
       Recorder<D>::setting(p, scene.nozzle, scene.collector, scene.force_error(), scene.columns));
+  recorder.sample_all(scene.decomposition());
   recorder.add(p.printstat_list, std::make_unique<Keep>(table), own);
   Integration<D> integration(p, system(scene), {&recorder}, std::move(stop_here));
   if (!integration.march.to(p.final_time / scales(p).time)) return std::nullopt;

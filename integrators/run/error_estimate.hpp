@@ -29,7 +29,7 @@ struct TableOfRows {
   std::vector<std::vector<double>> rows;
 };
 
-/// InputError if the deck's run has no rows to estimate, or is held in subdomains.
+/// InputError if the deck's run has no rows to estimate.
 void expect_estimable(const Parameters& p);
 
 /// The same deck at a tenth of the tolerance, or half the timestep.
@@ -41,7 +41,8 @@ std::string finer_description(const Parameters& p);
 /// The rows of statdat.dat. FileError if it cannot be read.
 TableOfRows read_rows(const std::filesystem::path& statdat);
 
-/// The same rows of a run to its end, without files; none if told to stop before, between any two steps.
+/// The same rows of a run to its end, without files, on the first rank; none if told to stop before, between
+/// any two steps.
 template <int D>
 std::optional<TableOfRows> rows_of_run(const Parameters& p, Scene<D>& scene, const OwnObservables<D>& own,
                                        std::function<bool()> stop_here);

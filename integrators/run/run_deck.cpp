@@ -115,12 +115,12 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysi
   const std::filesystem::path error_table = std::filesystem::path(directory) / error_table_name;
   if (a.estimate_error) expect_estimate_possible(p, a, error_table);
   Scene<D> scene = compose<D>(p, each, ranks, own_terms<D>(own, p));
-  if (from.origin) scene.jet = jet_of<D>(*from.origin, p, scene.columns);
+  if (from.origin) scene.decomposition().take(scene.jet, jet_of<D>(*from.origin, p, scene.columns));
   OutputSetting outputs{directory,          existing(a), a.quiet,
                         !ranks.first(),     made_by,     {ranks.size(), each.count},
                         scene.force_error()};
   outputs.changes = from.changes;
-  CheckpointParts* const steps = from.origin ? steps_of(*from.origin, p) : nullptr;
+  Checkpoint* const steps = from.origin ? steps_of(*from.origin, p) : nullptr;
   Simulation<D> simulation(deck, system(scene),
                            {outputs, [&stop] { return stop(); }, from.resumed, own_observables<D>(own), steps,
                             [&ranks] { return ranks.times(); }});
@@ -150,7 +150,7 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysi
   if (a.estimate_error) {
     const Parameters second = finer(p);
     Scene<D> again = compose<D>(second, each, ranks, own_terms<D>(own, second));
-    if (from.origin) again.jet = jet_of<D>(*from.origin, p, again.columns);
+    if (from.origin) again.decomposition().take(again.jet, jet_of<D>(*from.origin, p, again.columns));
     estimate_error<D>(p, a, directory, std::move(again), own_observables<D>(own), ranks,
                       [&stop] { return stop() == StopRequest::stop; });
   }
@@ -166,18 +166,19 @@ void expect_same_map(const Parameters& p, Checkpoint& resumed) {
                                  before.empty() ? "no field map" : before, now.empty() ? "none" : now));
 }
 
-/// A run that goes on is cut as it was; what looks at the whole jet needs it on one rank.
-ParallelData data_of_ranks(const Parameters& p, const Arguments& a, const Ranks& ranks,
-                           const Beginning& from) {
+/// A run that goes on is cut as it was.
+ParallelData data_of_ranks(const Parameters& p, const Ranks& ranks, const Beginning& from) {
   using enum ParallelData;
   if (p.parallel != automatic) return p.parallel;
   if (from.resumed) return from.resumed->records > 0 ? distributed : replicated;
-  return from.origin || a.estimate_error ? replicated : data_of_ranks(p, ranks.size());
+  if (!from.origin) return data_of_ranks(p, ranks.size());
+  const bool was_cut = from.origin->checkpoint && from.origin->checkpoint->records > 0;
+  return was_cut && obstacles_to_subdomains(p).empty() ? distributed : replicated;
 }
 
 int run(Deck deck, const Arguments& a, const Ranks& ranks, const OwnPhysics& own,
         const Beginning& from = {}) {
-  deck.parameters.parallel = data_of_ranks(deck.parameters, a, ranks, from);
+  deck.parameters.parallel = data_of_ranks(deck.parameters, ranks, from);
   read_field_map_of(deck);
   if (from.resumed) expect_same_map(deck.parameters, *from.resumed);
   const bool straight = deck.parameters.system == 1;

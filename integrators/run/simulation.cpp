@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/io/output_files.hpp"
 #include "core/jet/scales.hpp"
 #include "parallel/work_clock.hpp"
 
@@ -54,7 +55,8 @@ class Watchers final : public Observer<D> {
 template <int D>
 struct MarchOfAnother {
   March<D>& march;
-  void visit(Archive& state) { march.take_over(state); }
+  std::function<void()> read_beads;
+  void visit(Archive& state) { march.take_over(state, read_beads); }
 };
 
 }  // namespace
@@ -84,7 +86,7 @@ Simulation<D>::Simulation(const Deck& deck, const System<D>& system, const Setti
       integration_(
           deck.parameters, system, {watchers_.get()}, [this] { return stop_here(); },
           [this] {
-            if (leaves_state()) before_end_ = state();
+            if (leaves_state()) keep_state();
           }),
       march_(integration_.march) {
   if (checkpoints_ && setting_.outputs.existing == OutputFile::Existing::replace) checkpoints_->remove();
@@ -93,8 +95,8 @@ Simulation<D>::Simulation(const Deck& deck, const System<D>& system, const Setti
     decomposition_.read(jet_, records_of(*setting.resumed));
   }
   if (setting.steps) {
-    MarchOfAnother<D> taken{march_};
-    setting.steps->part("march", taken);
+    MarchOfAnother<D> taken{march_, [&] { decomposition_.read(jet_, records_of(*setting.steps)); }};
+    setting.steps->state.part("march", taken);
   }
   if (!setting.outputs.changes.empty()) save();  // what a resumption is to go on with from now on
 }
@@ -103,7 +105,9 @@ template <int D>
 bool Simulation<D>::finish() {
   const bool arrived = march_.to(deck_.parameters.final_time / time_unit_);
   if (arrived) outputs_.complete(results());
-  if (arrived && checkpoints_) checkpoints_->conclude(before_end_ ? &*before_end_ : nullptr);
+  if (!arrived || !checkpoints_) return arrived;
+  saved_before_end_ ? checkpoints_->conclude_with_newest()
+                    : checkpoints_->conclude(before_end_ ? &*before_end_ : nullptr);
   return arrived;
 }
 
@@ -126,10 +130,23 @@ RunResults Simulation<D>::results() const {
           {}};
 }
 
-/// A jet in subdomains is nowhere whole.
+/// All ranks that hold a subdomain are of one opinion.
 template <int D>
 bool Simulation<D>::leaves_state() const {
-  return checkpoints_ && outputs_.makes_files() && deck_.parameters.parallel == ParallelData::replicated;
+  if (decomposition_.in_subdomains()) return !output_files(deck_.parameters).empty();
+  return checkpoints_ && outputs_.makes_files();
+}
+
+/// A state that the final time has had no influence on, for a run to a later one. A jet in subdomains is
+/// nowhere whole but in a file.
+template <int D>
+void Simulation<D>::keep_state() {
+  if (!decomposition_.in_subdomains()) {
+    before_end_ = state();
+    return;
+  }
+  save();
+  saved_before_end_ = true;
 }
 
 template <int D>
@@ -142,6 +159,7 @@ bool Simulation<D>::stop_here() {
 /// Of a jet in subdomains all ranks give theirs to the one that writes.
 template <int D>
 void Simulation<D>::save() {
+  if (saved_before_end_) return;
   const Working at(Work::output);
   if (!checkpoints_) return decomposition_.write(jet_, {});
   // a state that the final time has had an influence on would not do for a later one

@@ -31,7 +31,7 @@ class Simulation {
     Checkpoint* resumed = nullptr;  ///< of the same deck, to continue; null for a new run
     OwnObservables<D> observables = {};
     /// Of another run, whose steps this one goes on with; null where they begin with the system's jet.
-    CheckpointParts* steps = nullptr;
+    Checkpoint* steps = nullptr;
     std::function<GatherTimes()> gather_times = [] { return GatherTimes(); };  ///< of all ranks together
   };
 
@@ -52,6 +52,7 @@ class Simulation {
   void save();
   std::string flow_summary() const;
   bool leaves_state() const;
+  void keep_state();
   RunResults results() const;
   Checkpoint state();
   void visit(CheckpointParts& state);
@@ -65,6 +66,7 @@ class Simulation {
   std::optional<DirectoryLock> lock_;       ///< before anything in the directory is touched
   std::optional<Checkpoints> checkpoints_;  ///< none if another process makes the outputs
   std::optional<Checkpoint> before_end_;    ///< the last state that the final time had no influence on
+  bool saved_before_end_ = false;           ///< that one is the newest checkpoint
   Outputs<D> outputs_;
   std::unique_ptr<Observer<D>> watchers_;
   Integration<D> integration_;

@@ -41,7 +41,7 @@ bool march(const Deck& deck, const fs::path& directory, std::function<StopReques
   outputs.made_by = provenance(deck, "");
   if (from.origin) outputs.made_by.begins_with = description(*from.origin, deck.parameters);
   outputs.changes = from.changes;
-  CheckpointParts* const steps = from.origin ? steps_of(*from.origin, deck.parameters) : nullptr;
+  Checkpoint* const steps = from.origin ? steps_of(*from.origin, deck.parameters) : nullptr;
   return Simulation<D>(deck, system(scene), {outputs, std::move(stop_request), from.resumed, {}, steps})
       .finish();
 }
@@ -308,8 +308,6 @@ TEST_CASE("A jet that a deck cannot begin with is refused with the reason") {
   CHECK_THROWS_WITH(begin(here, {"collector distance 0.05"}),
                     Catch::Contains("beyond the collector distance"));
   CHECK_THROWS_WITH(begin(here, {"density charge 0"}), Catch::Contains("has no charge"));
-  CHECK_THROWS_WITH(begin(here, {"parallel distributed", "coulomb tree", "multirate no"}),
-                    Catch::Contains("parallel distributed"));
   CHECK_THROWS_WITH(begin(here + "@0.00035", {}), Catch::Contains("nearest are at 0.0003 and 0.0004 s"));
   CHECK_THROWS_WITH(begin(here + "@1", {}), Catch::Contains("no frame at t = 1 s"));
   CHECK_THROWS_WITH(begin(here + "@3 kV", {}), Catch::Contains("expected a time"));
