@@ -16,9 +16,6 @@ std::vector<Obstacle> obstacles_to_subdomains(const Parameters& p) {
         "expected coulomb tree or coulomb auto: a direct sum needs all beads on every rank"}},
       {p.coulomb_expansions == ExpansionKind::none,
        {{"parallel", "coulomb expansions"}, "expected coulomb expansions local"}},
-      {p.refinement,
-       {{"dynamic refinement", "parallel"},
-        "expected parallel replicated: a jet in subdomains is not refined"}},
   };
   std::vector<Obstacle> found;
   for (const Case& c : cases)

@@ -33,10 +33,11 @@ struct Chain {
   Points tangent;                               ///< per element, like all below
   Eigen::ArrayXd inverse_length, strain_rate, stress, inverse_mass, volume;
   const State<D>* state = nullptr;  ///< of the beads
-  /// Of all elements of the jet, as they left the nozzle, also where the chain is but its two ends
-  /// (core/jet/right_hand_side.hpp), `oldest` rows being the old one; it outlives an evaluation.
+  /// Of all elements of the jet, as they left the nozzle, also where the chain is but a part of it, or its
+  /// two ends (core/jet/right_hand_side.hpp), `oldest` rows being the old one; it outlives an evaluation.
+  /// Rows from `oldest` on are `left_out` higher in the jet.
   const Eigen::ArrayXd* volume_at_nozzle = nullptr;
-  Eigen::Index oldest = 0;
+  Eigen::Index oldest = 0, left_out = 0;
   double held_mass = 0;  ///< of the held bead, and its volume
   Vec<D> nozzle_velocity = Vec<D>::Zero();
 
@@ -44,9 +45,7 @@ struct Chain {
   bool holds_bead() const { return points() == beads + 2; }
 
   /// The row of the jet that row i of the chain is.
-  Eigen::Index row_of_jet(Eigen::Index i) const {
-    return i < oldest ? i : i + volume_at_nozzle->size() - beads;
-  }
+  Eigen::Index row_of_jet(Eigen::Index i) const { return i < oldest ? i : i + left_out; }
   /// Which bead row i is (core/jet/jet.hpp).
   std::int64_t number(Eigen::Index i) const { return treejet::number(*id, removed, i); }
 
@@ -68,8 +67,9 @@ void set_boundary(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, d
   chain.to_youngest = jet.to_youngest;
   chain.beads = static_cast<int>(n);
   chain.state = &y;
-  chain.volume_at_nozzle = &jet.volume;
+  chain.volume_at_nozzle = jet.all_volumes ? jet.all_volumes : &jet.volume;
   chain.oldest = 0;
+  chain.left_out = jet.first_of_all;
   chain.nozzle_velocity = nozzle.velocity(t);
   chain.point.resize(points, Eigen::NoChange);
   chain.point_charge.resize(points);

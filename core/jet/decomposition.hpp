@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/jet/jet.hpp"
+#include "core/jet/spacing.hpp"
 
 namespace treejet {
 
@@ -52,6 +53,9 @@ class Decomposition {
   /// Each number becomes the sum of those of all who hold a subdomain.
   virtual void add_up(Eigen::Ref<Eigen::ArrayXd>) const {}
 
+  /// The volumes of all elements of the whole jet, where they may be unequal.
+  virtual const Eigen::ArrayXd& all_volumes(const Jet<D>& jet) const { return jet.volume; }
+
   /// From the oldest bead to the nozzle, of the whole chain.
   virtual double path_length(const State<D>& y, const Vec<D>& nozzle) const {
     return treejet::path_length<D>(y, nozzle);
@@ -75,6 +79,12 @@ class Decomposition {
   /// The jet becomes what is to be here of a whole one.
   virtual void take(Jet<D>& jet, const Jet<D>& all) { jet = all; }
 
+  /// What gives the whole jet the beads it needs, the same for all who hold a subdomain; and that done.
+  virtual Refinement refinement(const Jet<D>& jet, const Spacing<D>& spacing) const {
+    return spacing.refinement(jet);
+  }
+  virtual void refine(Jet<D>& jet, const Refinement& refinement) { treejet::refine(jet, refinement); }
+
   /// The jet in a checkpoint: what all ranks know of it, and the records behind that.
   virtual void visit(Jet<D>& jet, Archive& state) { state(jet); }
   virtual std::int64_t records() const { return 0; }
@@ -87,6 +97,13 @@ class Decomposition {
 /// All of it.
 template <int D>
 inline Decomposition<D> undivided;
+
+/// Gives the beads ids: from now on `removed + i` does not tell one from another.
+template <int D>
+void number_beads(Jet<D>& jet, const Decomposition<D>& all = undivided<D>) {
+  jet.id = all.numbers(jet) + 1;
+  jet.born = jet.removed + all.beads(jet);
+}
 
 /// The whole jet, on the rank that writes files: for few beads only.
 template <int D>

@@ -45,6 +45,9 @@ struct Jet : SolutionPoint<D> {
   IdColumn id;               ///< of the beads, from 1 in the order of their births; none without refinement
   std::int64_t born = 0;     ///< beads that have been given an id
   bool from_oldest = true, to_youngest = true;  ///< false of a part of a jet: its end is not the jet's
+  /// Of a part of a jet whose elements may be unequal: the volumes of all, and the row of its first.
+  const Eigen::ArrayXd* all_volumes = nullptr;
+  Eigen::Index first_of_all = 0;
 
   Eigen::Index size() const { return this->y.rows(); }
 
@@ -98,13 +101,6 @@ void append(Jet<D>& jet, const Jet<D>& more) {
   join(jet.y, more.y);
   for (auto each : {&Jet<D>::mass, &Jet<D>::charge, &Jet<D>::volume}) join(jet.*each, more.*each);
   join(jet.id, more.id);
-}
-
-/// Gives the beads ids: from now on `removed + i` does not tell one from another.
-template <int D>
-void number_beads(Jet<D>& jet) {
-  jet.born = jet.removed + jet.size();
-  jet.id = IdColumn::LinSpaced(jet.size(), jet.removed + 1, jet.born);
 }
 
 /// Which bead row i is, from 0 in the order of their births, whatever becomes of its neighbours.

@@ -74,20 +74,30 @@ bool Spacing<D>::due(double t, bool has_released) const {
   return std::abs(t / every_ - std::round(t / every_)) <= round_off;
 }
 
+/// Its halves are to be slender.
+template <int D>
+bool Spacing<D>::may_be_split(double length, double volume) const {
+  const double half = length / 2;
+  return half * half * half >= slender_ * volume / 2;
+}
+
+/// Elements that ask to be split.
+template <int D>
+std::vector<Index> Spacing<D>::too_large(const Jet<D>& jet) const {
+  const Elements e = elements(jet);
+  std::vector<Index> found;
+  for (Index i = 0; i + left_alone < jet.size(); ++i)
+    if ((e.length[i] > longest_ || e.turn[i] > most_turn_) && may_be_split(e.length[i], e.volume[i]))
+      found.push_back(i);
+  return found;
+}
+
 /// One that is not the larger of two neighbours waits until the other has been split.
 template <int D>
 std::vector<Index> Spacing<D>::to_split(const Jet<D>& jet) const {
+  std::vector<Index> wanted = too_large(jet), found;
+  if (wanted.empty()) return found;
   const Elements e = elements(jet);
-  const Index count = std::max<Index>(jet.size() - left_alone, 0);
-  const auto may_be_split = [&](Index i) {
-    if (i < 0 || i >= count) return false;
-    const double half = e.length[i] / 2;
-    return half * half * half >= slender_ * e.volume[i] / 2;
-  };
-  std::vector<Index> wanted;
-  for (Index i = 0; i < count; ++i)
-    if ((e.length[i] > longest_ || e.turn[i] > most_turn_) && may_be_split(i)) wanted.push_back(i);
-  std::vector<Index> found;
   for (std::size_t n = 0; n < wanted.size(); ++n) {  // which grows on the way
     const Index i = wanted[n];
     bool waits = false;
@@ -95,7 +105,9 @@ std::vector<Index> Spacing<D>::to_split(const Jet<D>& jet) const {
       const double volume = neighbour < 0 ? beyond_oldest(jet) : e.volume[neighbour];
       if (volume <= e.volume[i] * (1 + round_off)) continue;
       waits = true;
-      if (may_be_split(neighbour)) wanted.push_back(neighbour);
+      if (neighbour >= 0 && neighbour + left_alone < jet.size() &&
+          may_be_split(e.length[neighbour], e.volume[neighbour]))
+        wanted.push_back(neighbour);
     }
     if (!waits) found.push_back(i);
   }
@@ -121,6 +133,11 @@ std::vector<Index> Spacing<D>::to_merge(const Jet<D>& jet) const {
     if (!taken && alike && graded && fine && V <= 1 + round_off) found.push_back(k);
   }
   return found;
+}
+
+template <int D>
+bool Spacing<D>::content(const Jet<D>& part) const {
+  return too_large(part).empty() && to_merge(part).empty();
 }
 
 template <int D>

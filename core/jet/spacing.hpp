@@ -36,12 +36,17 @@ class Spacing {
   /// What gives the jet the beads it needs; empty if it has them.
   Refinement refinement(const Jet<D>& jet) const;
 
+  /// Whether a part of a jet, with three beads more on either side that others ask about, asks for nothing.
+  bool content(const Jet<D>& part) const;
+
   /// The next time after t at which to look, infinite if releases tell.
   double next(double t) const;
   /// Whether to look now.
   bool due(double t, bool has_released) const;
 
  private:
+  bool may_be_split(double length, double volume) const;
+  std::vector<Eigen::Index> too_large(const Jet<D>& jet) const;
   std::vector<Eigen::Index> to_split(const Jet<D>& jet) const;
   std::vector<Eigen::Index> to_merge(const Jet<D>& jet) const;
 

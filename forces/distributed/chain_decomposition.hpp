@@ -15,6 +15,10 @@
 /// no more than one at a time beside its own subdomain. A checkpoint may be read by any number of ranks, each
 /// of which takes the beads that are then its own; on as many as before the chain is cut as it was.
 ///
+/// Elements are split and merged as in the whole jet: whether any asks for it is seen on every rank with
+/// three beads of its neighbours; only then all beads go to all ranks, which decide and refine alike by the
+/// code of the whole, and keep their own. Each rank so holds the whole for a moment, 100 bytes a bead.
+///
 /// Weak: what looks at neighbouring rows (integrators/march/diagnosis.hpp) takes the own beads next to a copy
 /// for its neighbours, and sees no element from one subdomain to the next.
 
@@ -31,6 +35,9 @@ inline constexpr auto bead_constants = {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>:
 
 class ChainDecomposition final : public Decomposition<3> {
  public:
+  /// On their way, a column each: state, mass, charge, volume, id if they have one, what is carried along.
+  using Beads = Eigen::ArrayXXd;
+
   ChainDecomposition(int beads, const Ranks& ranks, Ends ends = {});
 
   /// The beads of the whole chain that the rows of this rank's jet are, by number.
@@ -44,6 +51,11 @@ class ChainDecomposition final : public Decomposition<3> {
   int younger() const { return neighbour(+1); }
   const Ranks& ranks() const { return ranks_; }
   int recuts() const { return recuts_; }
+
+  /// Elements may be unequal, and all ranks know the volumes of all: sent whenever beads have come or gone.
+  void share_volumes() { shares_volumes_ = true; }
+  bool shares_volumes() const { return shares_volumes_; }
+  const Eigen::ArrayXd& all_volumes(const Jet<3>& jet) const override;
 
   /// Turns the rows of a table that stand for beads at the ends into what their holders have there.
   void share_ends(Eigen::Ref<Eigen::ArrayXXd> table) const;
@@ -73,6 +85,8 @@ class ChainDecomposition final : public Decomposition<3> {
                    const std::function<void(const Jet<3>& some)>& take) const override;
 
   void take(Jet<3>& jet, const Jet<3>& all) override;
+  Refinement refinement(const Jet<3>& jet, const Spacing<3>& spacing) const override;
+  void refine(Jet<3>& jet, const Refinement& refinement) override;
 
   void visit(Jet<3>& jet, Archive& state) override;
   std::int64_t records() const override;
@@ -85,6 +99,12 @@ class ChainDecomposition final : public Decomposition<3> {
   void cut(int beads);
   bool out_of_balance() const;
   void arrange(Jet<3>& jet, const Layout& had);
+  using Wanted = std::function<std::vector<Stretch>(int rank)>;
+  Beads wanted_beads(const Beads& beads, const Layout& had, const Wanted& wanted) const;
+  Jet<3> part(const Jet<3>& jet, int beyond) const;
+  Eigen::ArrayXXd gathered(const Eigen::Ref<const Eigen::ArrayXXd>& table) const;
+  Jet<3> undivided(const Jet<3>& jet) const;
+  void take_rows(Jet<3>& jet, const Jet<3>& all) const;
   void recut_if_due(Jet<3>& jet);
   std::string portion(const Jet<3>& jet, int rank, Stretch beads) const;
 
@@ -92,6 +112,10 @@ class ChainDecomposition final : public Decomposition<3> {
   Ends ends_;
   Layout layout_;
   int recuts_ = 0;
+  bool shares_volumes_ = false;
+  int changes_ = 0;  ///< of the beads
+  mutable Eigen::ArrayXd volumes_;
+  mutable int volumes_since_ = -1;  ///< `changes_` then
   CarriedRows carried_ = [](Eigen::Index, Eigen::Index count) { return Eigen::ArrayXXd(count, 0); };
   std::function<void(const Eigen::ArrayXXd&)> set_carried_ = [](const Eigen::ArrayXXd&) {};
   std::function<void(Archive&)> own_state_;

@@ -36,21 +36,28 @@ void DistributedMotion::differentiate(const Jet<3>& jet, double t, const State<3
 /// The own beads and, from the ranks next along the chain, one on either side: state, mass, charge, volume.
 void DistributedMotion::extend(const Jet<3>& jet, const State<3>& y) {
   const Rows own = subdomains_.own();
-  State<3> beads(own.size(), y.cols() + Eigen::Index{bead_constants.size()});
+  const Eigen::Index ids = jet.id.size() > 0 ? 1 : 0;
+  State<3> beads(own.size(), y.cols() + Eigen::Index{bead_constants.size()} + ids);
   beads.leftCols(y.cols()) = y.middleRows(own.first, own.size());
   Eigen::Index column = y.cols();
   for (auto each : bead_constants) beads.col(column++) = (jet.*each).segment(own.first, own.size());
+  if (ids > 0) beads.col(column) = jet.id.segment(own.first, own.size()).cast<double>();
   beads = between_neighbours(beads);
 
   first_ = subdomains_.older() >= 0 ? 1 : 0;
   extended_.y = beads.leftCols(y.cols());
   column = y.cols();
   for (auto each : bead_constants) extended_.*each = beads.col(column++);
+  extended_.id.resize(0);
+  if (ids > 0) extended_.id = beads.col(column).cast<std::int64_t>();
   extended_.removed = subdomains_.before(jet) + own.first - first_;
   extended_.from_oldest = first_ == 0;
   extended_.to_youngest = subdomains_.younger() < 0;
   extended_.held = jet.held && subdomains_.has_youngest();
   extended_.last_release = jet.last_release;
+  if (!subdomains_.shares_volumes()) return;
+  extended_.all_volumes = &subdomains_.all_volumes(jet);
+  extended_.first_of_all = extended_.removed - jet.removed;
 }
 
 State<3> DistributedMotion::between_neighbours(const State<3>& own) const {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/jet/refinement.hpp"
+
 namespace treejet {
 
 /// Beads first <= i < last.
@@ -52,6 +54,14 @@ inline int place_of(int bead, const std::vector<Stretch>& stretches) {
   return before;
 }
 
+/// Of these beads, one by one.
+inline std::vector<int> numbers(const std::vector<Stretch>& stretches) {
+  std::vector<int> all;
+  for (const Stretch& s : stretches)
+    for (int i = s.first; i < s.last; ++i) all.push_back(i);
+  return all;
+}
+
 /// Beads at the ends of a chain of which every rank has copies.
 struct Ends {
   int old = 1, young = 1;
@@ -90,6 +100,14 @@ struct Layout {
   void drop_oldest() {
     const int rank = holder(0);
     for (int k = rank + 1; k <= ranks(); ++k) --borders[static_cast<std::size_t>(k)];
+  }
+
+  /// Beads stay with those that they come of: the half above a split element with the half below.
+  void refine(const RefinementPass& pass) {
+    for (int& border : borders) {
+      const auto before = std::lower_bound(pass.rows.begin(), pass.rows.end(), border) - pass.rows.begin();
+      border += static_cast<int>(pass.kind == RefinementPass::Kind::split ? before : -before);
+    }
   }
 
  private:

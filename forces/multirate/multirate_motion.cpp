@@ -116,7 +116,7 @@ void MultirateMotion<D>::follow(const Jet<D>& jet, const State<D>& y) {
   gather_fast(jet.mass, fast_region_.jet.mass);
   gather_fast(jet.charge, fast_region_.jet.charge);
   gather_fast(jet.volume, fast_region_.jet.volume);
-  volume_ = jet.volume;
+  volumes_ = &all_.all_volumes(jet);
   gather_fast(y, fast_region_.jet.y);
   fast_region_.jet.held = jet.held;
   fast_region_.jet.last_release = jet.last_release;
@@ -168,8 +168,9 @@ void MultirateMotion<D>::continued_ends(const Jet<D>& jet, double t, const State
   slope.resize(n, y.cols());
   field_.resize(n + 2, Eigen::NoChange);
   set_boundary<D>(chain_, jet, local_.nozzle(), t, y);
-  chain_.volume_at_nozzle = &volume_;
+  chain_.volume_at_nozzle = volumes_;
   chain_.oldest = fast_region_old;
+  chain_.left_out = volumes_->size() - n;
   set_points<D>(chain_, jet, y, {0, n});
   set_near_beads(w, y, slope);
   for (const FastEnd& end : fast_ends(n, chain_.points())) {

@@ -63,7 +63,9 @@ class MultirateMotion final : public RightHandSide<D> {
   void complete(const Jet<D>& jet, double h, const State<D>& some, State<D>& next) override;
   void before_removal(const Jet<D>& jet) override { history_.before_removal(jet, Q()); }
   void after_release(const Jet<D>& jet) override { history_.after_release(jet, Q(), all_); }
+  /// In subdomains, which are cut anew, what is remembered is forgotten.
   std::int64_t before_refinement(const Jet<D>& jet, const Refinement& refinement) override {
+    if (all_.in_subdomains()) return history_.forget(), 0;
     const int evaluations = history_.before_refinement(jet, refinement, full_);
     full_evaluations_ += evaluations;
     return evaluations;
@@ -113,10 +115,10 @@ class MultirateMotion final : public RightHandSide<D> {
   bool amplifies_ = false;  ///< the jet its short waves, so that nothing is continued
 
   FastRegion<D> fast_region_{{}, fast_region_old};
-  Eigen::ArrayXd volume_;           ///< of all elements
-  Eigen::ArrayXd specific_charge_;  ///< Q q / m of the followed beads
-  Chain<D> chain_;                  ///< of these
-  Points field_;                    ///< of this stage
+  const Eigen::ArrayXd* volumes_ = nullptr;  ///< of all elements
+  Eigen::ArrayXd specific_charge_;           ///< Q q / m of the followed beads
+  Chain<D> chain_;                           ///< of these
+  Points field_;                             ///< of this stage
 };
 
 }  // namespace treejet

@@ -373,6 +373,7 @@ void distribute(Scene<3>& scene, const Parameters& p, int beads, const JetOfRows
   auto subdomains = std::make_unique<ChainDecomposition>(beads, ranks, ends);
   auto motion = std::make_unique<DistributedMotion>(*scene.motion, *subdomains, threads);
   if (groups(p).Q != 0) motion->add_coulomb(groups(p).Q, coulomb_request(p, /*points_move*/ true));
+  if (p.refinement && p.self_field == SelfField::slender) subdomains->share_volumes();
   subdomains->keep([field = motion.get()](Archive& state) { field->visit_field(state); });
   if (two_rates) {
     motion->be_continued();

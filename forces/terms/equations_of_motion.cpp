@@ -52,14 +52,16 @@ template <int D>
 void EquationsOfMotion<D>::differentiate(const Jet<D>& jet, double t, const State<D>& y,
                                          LocalJacobian<D>& J) {
   const int n = static_cast<int>(y.rows());
-  set_boundary<D>(chain_, jet, nozzle_, t, y);
-  set_points<D>(chain_, jet, y, {0, n});
-  set_elements<D>(chain_, jet, y, {0, n});
-  amend({0, n});
   J.element.assign(static_cast<std::size_t>(n), {});
   J.acceleration_by_v.clear();
   J.subdomain = nullptr;
   J.law_column = law_columns_ > 0;
+  J.inverse_mass = jet.mass.inverse();
+  if (n == 0) return;  // a subdomain without beads
+  set_boundary<D>(chain_, jet, nozzle_, t, y);
+  set_points<D>(chain_, jet, y, {0, n});
+  set_elements<D>(chain_, jet, y, {0, n});
+  amend({0, n});
   J.inverse_mass = chain_.inverse_mass;
   for (int i = 0; i < n; ++i) {
     const Vec<D> tangent = chain_.tangent.row(i).matrix().transpose();

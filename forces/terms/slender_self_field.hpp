@@ -42,8 +42,8 @@ namespace treejet {
 template <int D>
 class SlenderSelfField final : public ForceTerm<D> {
  public:
-  /// Q: the Coulomb term's group. `uneven`: elements of unequal volume may meet; then the chain is whole, or
-  /// the two ends of one. `drying`: the first added column is the solvent.
+  /// Q: the Coulomb term's group. `uneven`: elements of unequal volume may meet; then the chain knows the
+  /// volumes of the whole jet. `drying`: the first added column is the solvent.
   SlenderSelfField(double Q, Section section, bool uneven = false,
                    const std::optional<Evaporation>& drying = {})
       : Q_(Q), section_(section), uneven_(uneven), drying_(drying) {}

@@ -282,10 +282,10 @@ void March<D>::commit(std::optional<Due> due) {
 template <int D>
 bool March<D>::refine_if_due(std::int64_t released_before) {
   if (!parts_.spacing || !parts_.spacing->due(jet_.t, effort_.released > released_before)) return false;
-  const Refinement refinement = parts_.spacing->refinement(jet_);
+  const Refinement refinement = parts_.decomposition.refinement(jet_, *parts_.spacing);
   if (refinement.empty()) return false;
   effort_.evaluations += parts_.motion.before_refinement(jet_, refinement);
-  refine(jet_, refinement);
+  parts_.decomposition.refine(jet_, refinement);
   for (const RefinementPass& pass : refinement)
     (pass.kind == RefinementPass::Kind::split ? effort_.split : effort_.merged) += std::ssize(pass.rows);
   for (auto* w : parts_.observers) w->refined(jet_, refinement);

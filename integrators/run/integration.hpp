@@ -57,7 +57,7 @@ class Integration {
                .decomposition = system.decomposition,
                .spacing = spacing_ ? &*spacing_ : nullptr,
                .end_in_sight = std::move(end_in_sight)}) {
-    if (spacing_ && system.jet.id.size() == 0) number_beads(system.jet);
+    if (spacing_ && system.jet.id.size() == 0) number_beads(system.jet, system.decomposition);
   }
 
  private:

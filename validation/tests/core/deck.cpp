@@ -808,7 +808,6 @@ TEST_CASE("Each obstacle to subdomains is told alone, and keeps parallel auto fr
   met(&Parameters::system, 1, "system 1");
   met(&Parameters::coulomb, CoulombSum::direct, "direct sum needs all beads");
   met(&Parameters::coulomb_expansions, ExpansionKind::none, "coulomb expansions local");
-  met(&Parameters::refinement, true, "is not refined");
 }
 
 TEST_CASE("No two directives share a spelling, and no two observables a key", "[deck]") {

@@ -52,18 +52,22 @@ TEST_CASE("After an event that went easily the next of its kind may begin a tent
   CHECK(control.proposal(0, 1) == Approx(1.1 * first).epsilon(1e-14));
 }
 
+/// By a call: inlined, GCC 12 takes an event that has not been for one that is not set.
+[[gnu::noinline]] static bool accepts(StepControl& control, double h, double error) {
+  return control.accepts(0, h, error);
+}
+
 TEST_CASE(
     "A step is accepted with what its scheme's share permits, and does not grow right after a rejection") {
   for (double share : {1.0, 0.1}) {
     CAPTURE(share);
-    AdaptiveStep made(0.1, 5, 1, share);
-    StepControl& control = made;
-    CHECK_FALSE(control.accepts(0, 0.1, 1.01 * share));
+    AdaptiveStep control(0.1, 5, 1, share);
+    CHECK_FALSE(accepts(control, 0.1, 1.01 * share));
     const double h = control.proposal(0, 1);
     CHECK(h < 0.1);
-    CHECK(control.accepts(0, h, 0.001 * share));
+    CHECK(accepts(control, h, 0.001 * share));
     CHECK(control.proposal(0, 1) <= h);
-    CHECK(control.accepts(0, h, 0.99 * share));
+    CHECK(accepts(control, h, 0.99 * share));
   }
 }
 

@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 TEST_CASE(
     "A jet in subdomains that is stopped and resumed on as many ranks leaves the bytes of one left alone") {
   const Ranks& ranks = started_ranks();
-  for (const Deck& deck : {short_jet(), two_rates(), tree_in_space()}) {
+  for (const Deck& deck : {short_jet(), two_rates(), tree_in_space(), refined_jet()}) {
     const SharedPlace whole(ranks), parts(ranks);
     const Ended left_alone = run(deck, whole.path, ranks);
     REQUIRE(left_alone.arrived);

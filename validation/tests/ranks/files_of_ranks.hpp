@@ -55,6 +55,16 @@ inline Deck tree_in_space() {
                     "coulomb accuracy 1.d-4", "coulomb tree space"});
 }
 
+/// One whose elements are split on the way, at two rates for a while.
+inline Deck refined_jet() {
+  return read_deck(
+      TREEJET_SOURCE_DIR "/examples/pvp/input.dat",
+      {"points 60", "initial length 1.2", "collector distance 1.25", "nozzle velocity 20.",
+       "final time 3.d-4", "print time 1.5d-5", "print xyz 7.d-5", "print hdf5 9.d-5",
+       "dynamic refinement yes", "dynamic refinement threshold 0.045", "parallel distributed", "coulomb tree",
+       "coulomb accuracy 1.d-5", "printstat list t x n f l nref nmrg yz st vx vc rc lp"});
+}
+
 /// Without the lines that tell what made them.
 inline std::string content(const std::filesystem::path& file) {
   const std::string all = read_whole(file);

@@ -47,7 +47,7 @@ bool rows_stand_in(const fs::path& part, const fs::path& whole) {
 TEST_CASE(
     "A run of subdomains extended beyond its end leaves the bytes of one that had the later end at once") {
   const Ranks& ranks = started_ranks();
-  for (const Deck& deck : {short_jet(), two_rates(), tree_in_space()}) {
+  for (const Deck& deck : {short_jet(), two_rates(), tree_in_space(), refined_jet()}) {
     const double end = deck.parameters.final_time;
     const std::vector<std::string> later = {fmt::format("final time {}", 1.7 * end)};
     const SharedPlace whole(ranks), extended(ranks), stopped(ranks);

@@ -1,0 +1,133 @@
+#include "core/base/error.hpp"
+#include "core/jet/saved_chain.hpp"
+#include "forces/distributed/chain_decomposition.hpp"
+
+namespace treejet {
+
+namespace {
+
+/// Beads that are on their way to a file at a time: a few MB.
+constexpr int portion_beads = 16'384;
+
+/// All beads up to `most`, in the order in which files have them.
+void for_each_portion(const Layout& layout, std::int64_t most,
+                      const std::function<void(int rank, Stretch beads)>& f) {
+  for (int rank = 0; rank < layout.ranks(); ++rank) {
+    const auto end = static_cast<int>(std::min<std::int64_t>(layout.own(rank).last, most));
+    for (int begin = layout.own(rank).first; begin < end; begin += portion_beads)
+      f(rank, {begin, std::min(begin + portion_beads, end)});
+  }
+}
+
+}  // namespace
+
+/// Of a rank's beads: with slopes, and what is carried along, if the jet has slopes.
+std::string ChainDecomposition::portion(const Jet<3>& jet, int rank, Stretch beads) const {
+  SavedBeads<3> some;
+  if (rank == ranks_.rank()) {
+    const int row = own().first + beads.first - layout_.own(rank).first, n = beads.size();
+    some.jet.t = jet.t;
+    some.jet.y = jet.y.middleRows(row, n);
+    for (auto each : bead_constants) some.jet.*each = (jet.*each).segment(row, n);
+    if (jet.id.size() > 0) some.jet.id = jet.id.segment(row, n);
+    some.jet.removed = jet.removed + beads.first;
+    if (jet.slope.rows() == jet.y.rows()) {
+      some.jet.slope = jet.slope.middleRows(row, n);
+      some.carried = carried_(row, n);
+    }
+  }
+  Archive archive;
+  archive(some);
+  return ranks_.to_first(rank, std::move(archive).bytes());
+}
+
+void ChainDecomposition::in_portions(const Jet<3>& jet, std::int64_t most,
+                                     const std::function<void(const Jet<3>& some)>& take) const {
+  for_each_portion(layout_, most, [&](int rank, Stretch beads) {
+    const std::string bytes = portion(jet, rank, beads);
+    if (!ranks_.first()) return;
+    SavedBeads<3> some;
+    Archive archive(bytes);
+    archive(some);
+    take(some.jet);
+  });
+}
+
+void ChainDecomposition::visit(Jet<3>& jet, Archive& state) {
+  SavedCut<3> saved{jet, jet.y.cols(), layout_.borders, recuts_};
+  state(saved);
+  if (!state.reading()) return;
+  recuts_ = saved.recuts;
+  cut(saved.borders.back());
+  cut_as_saved_ = saved.borders.size() == layout_.borders.size();
+  if (cut_as_saved_) layout_.borders = saved.borders;
+  for (auto* table : {&jet.y, &jet.slope}) table->resize(0, saved.columns);
+  for (auto each : bead_constants) (jet.*each).resize(0);
+  jet.id.resize(0);
+}
+
+std::int64_t ChainDecomposition::records() const {
+  std::int64_t count = ranks_.size();
+  for_each_portion(layout_, total(), [&](int, Stretch) { ++count; });
+  return count;
+}
+
+void ChainDecomposition::write(const Jet<3>& jet, const WriteRecord& write) const {
+  for_each_portion(layout_, total(), [&](int rank, Stretch beads) {
+    const std::string bytes = portion(jet, rank, beads);
+    if (ranks_.first()) write({beads.first, beads.size(), bytes});
+  });
+  for (int rank = 0; rank < ranks_.size(); ++rank) {
+    Archive archive;
+    if (own_state_ && rank == ranks_.rank()) own_state_(archive);
+    const std::string bytes = ranks_.to_first(rank, std::move(archive).bytes());
+    if (ranks_.first()) write({rank, 0, bytes});
+  }
+}
+
+void ChainDecomposition::read(Jet<3>& jet, const ReadRecords& records) {
+  const std::vector<Stretch> here = layout_.here(ranks_.rank());
+  const Eigen::Index n = place_of(total(), here), columns = jet.y.cols();
+  Eigen::ArrayXXd carried(n, carried_(0, 0).cols());
+  for (auto* table : {&jet.y, &jet.slope}) table->resize(n, columns);
+  for (auto each : bead_constants) (jet.*each).resize(n);
+  jet.id.resize(jet.born > 0 ? n : 0);
+  Eigen::Index found = 0;
+  const auto parts_here = [&](std::int64_t first, std::int64_t count) {
+    std::vector<Stretch> parts;
+    for (const Stretch& s : here) {
+      const Stretch part = common(s, {static_cast<int>(first), static_cast<int>(first + count)});
+      if (part.size() > 0) parts.push_back(part);
+    }
+    return parts;
+  };
+  const auto wanted = [&](std::int64_t first, std::int64_t count) {
+    return count > 0 ? !parts_here(first, count).empty()
+                     : cut_as_saved_ && own_state_ && first == ranks_.rank();
+  };
+  records(wanted, [&](const SubdomainRecord& record) {
+    Archive archive(record.bytes);
+    if (record.count == 0) return own_state_(archive), archive.expect_end();
+    SavedBeads<3> some;
+    archive(some);
+    expect_complete(some, record.count, columns);
+    if (some.jet.id.size() != (jet.born > 0 ? record.count : 0))
+      throw FileError("the checkpoint has beads without an id");
+    if (some.carried.cols() != carried.cols() || (carried.cols() > 0 && some.carried.rows() != record.count))
+      throw FileError("the checkpoint remembers less of its beads than of the jet");
+    for (const Stretch& part : parts_here(record.first, record.count)) {
+      const Eigen::Index row = place_of(part.first, here), from = part.first - record.first, m = part.size();
+      jet.y.middleRows(row, m) = some.jet.y.middleRows(from, m);
+      jet.slope.middleRows(row, m) = some.jet.slope.middleRows(from, m);
+      for (auto each : bead_constants) (jet.*each).segment(row, m) = (some.jet.*each).segment(from, m);
+      if (jet.id.size() > 0) jet.id.segment(row, m) = some.jet.id.segment(from, m);
+      if (carried.cols() > 0) carried.middleRows(row, m) = some.carried.middleRows(from, m);
+      found += m;
+    }
+  });
+  if (found != n) throw FileError("the checkpoint lacks beads of the jet");
+  set_carried_(carried);
+  ++changes_;
+}
+
+}  // namespace treejet

@@ -1,0 +1,160 @@
+/// Elements of jets in subdomains that are split and merged on the way.
+
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "forces/distributed/chain_decomposition.hpp"
+#include "validation/support/run.hpp"
+#include "validation/tests/ranks/ranked.hpp"
+
+using namespace treejet;
+
+namespace {
+
+using Directives = std::vector<std::string>;
+
+struct Scenario {
+  const char* what;
+  Directives directives;
+  double seconds;
+  int releases, removals, splits, merges;  ///< at least
+};
+
+Parameters parameters(Directives all, const Directives& more) {
+  all.insert(all.end(), more.begin(), more.end());
+  all.insert(all.end(), {"dynamic refinement yes", "final time 1"});
+  return example("pvp", all);
+}
+
+struct Flight {
+  std::vector<Jet<3>> jets;  ///< whole ones, on the first rank
+  Effort effort;
+  int recuts = 0;
+  std::int64_t full_evaluations = 0;  ///< at two rates
+};
+
+/// A bent thread, where nothing is inserted; bends straighten, and others are wound up.
+void bend(Run<3>& run) {
+  Jet<3>& jet = run.scene.jet;
+  const double length = run.parameters.initial_length / run.unit.length;
+  for (Eigen::Index i = 0; i < jet.size(); ++i)
+    jet.y(i, 1) = 0.2 / run.unit.length * std::sin(3 * std::numbers::pi * jet.y(i, 0) / length);
+}
+
+Flight flight(const Parameters& p, const Ranks& ranks, double seconds) {
+  Run<3> run(p, {1}, ranks);
+  if (!p.inserting) bend(run);
+  Snapshots<3> snapshots(seconds / 4 / run.unit.time);
+  snapshots.sample_all(run.scene.decomposition());
+  Flight f;
+  f.effort = run.to(seconds, {&snapshots});
+  f.jets = snapshots.jets;
+  if (const auto* subdomains = dynamic_cast<const ChainDecomposition*>(&run.scene.decomposition()))
+    f.recuts = subdomains->recuts();
+  if (run.scene.multirate) f.full_evaluations = run.scene.multirate->full_evaluations();
+  return f;
+}
+
+/// The largest difference of a coordinate, against the distance from nozzle to collector; 1e300 if the beads
+/// are not the same ones, with the same ids, masses, charges and volumes.
+double difference(const Flight& a, const Flight& b, const Parameters& p) {
+  if (a.jets.size() != b.jets.size()) return 1e300;
+  double largest = 0;
+  for (std::size_t k = 0; k < a.jets.size(); ++k) {
+    const Jet<3>&one = a.jets[k], &other = b.jets[k];
+    if (one.size() != other.size() || one.removed != other.removed || (one.id != other.id).any())
+      return 1e300;
+    for (auto each : {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume})
+      if ((one.*each != other.*each).any()) return 1e300;
+    largest = std::max(largest, (one.y.leftCols<3>() - other.y.leftCols<3>()).abs().maxCoeff());
+  }
+  return largest * scales(p).length / p.collector_distance;
+}
+
+double told_by_first(double found, const Ranks& ranks) {
+  double value = ranks.first() ? found : 0;
+  ranks.sum({&value, 1});
+  return value;
+}
+
+const Directives cut = {"parallel distributed", "coulomb tree", "coulomb accuracy 1.d-6"};
+const Directives stream = {"tolerance 1.d-7",     "points 60",
+                           "initial length 1.2",  "collector distance 1.25",
+                           "nozzle velocity 20.", "dynamic refinement threshold 0.045"};
+const Directives thread = {"tolerance 1.d-7",
+                           "points 20",
+                           "initial length 1.6",
+                           "inserting no",
+                           "removing no",
+                           "perturb no",
+                           "external potential 0",
+                           "density charge 0",
+                           "nozzle stress 2.d5",
+                           "surface tension model energy",
+                           "dynamic refinement tolerance 2.d-2",
+                           "dynamic refinement every 2.d-5"};
+
+Directives with(Directives all, const Directives& more) {
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("The same elements are split and merged in subdomains as in the whole jet") {
+  const Ranks& ranks = started_ranks();
+  const std::vector<Scenario> scenarios = {
+      {"beads come and go", stream, 8e-4, 5, 10, 50, 0},
+      {"bends straighten", thread, 6e-4, 0, 0, 15, 1},
+      {"slender", with(stream, {"self field slender", "surface tension model energy"}), 4e-4, 3, 5, 20, 0},
+      {"drying", with(stream, {"evaporation yes", "evaporation polymer frac 0.1"}), 5e-4, 5, 10, 30, 0},
+      {"bending", with(stream, {"bending yes", "elastic modulus 1.d6"}), 4e-4, 3, 5, 8, 0},
+      {"pushed by number", with(stream, {"noise yes", "noise diffusivity 1.d6", "noise interval 1.d-5"}),
+       5e-4, 5, 10, 30, 0}};
+  for (const Scenario& s : scenarios) {
+    CAPTURE(s.what);
+    const Flight whole = flight(parameters(s.directives, {"multirate no"}), {}, s.seconds);
+    const Parameters p = parameters(s.directives, with(cut, {"multirate no"}));
+    const Flight subdomains = flight(p, ranks, s.seconds);
+    const Effort& e = subdomains.effort;
+    CAPTURE(e.released, e.removed, e.split, e.merged, whole.effort.split, whole.effort.merged);
+    CHECK(e.released >= s.releases);
+    CHECK(e.removed >= s.removals);
+    CHECK(e.split >= s.splits);
+    CHECK(e.merged >= s.merges);
+    CHECK(e.split == whole.effort.split);
+    CHECK(e.merged == whole.effort.merged);
+    if (ranks.size() > 1 && s.directives == stream) CHECK(subdomains.recuts > 0);
+    // a millionth of the field moves no bead by more than that part of its way; here sums are direct, and
+    // what rounds otherwise grows by the jet's own instability
+    CHECK(told_by_first(difference(subdomains, whole, p), ranks) < 1e-6);
+    CHECK(ranks.agree(fmt::format("{} {} {}", e.steps, e.split, subdomains.recuts)));
+  }
+}
+
+TEST_CASE("Splits and merges in subdomains keep mass, charge and volume") {
+  const Ranks& ranks = started_ranks();
+  const Flight f = flight(parameters(thread, with(cut, {"multirate no"})), ranks, 6e-4);
+  CHECK(f.effort.merged > 0);
+  double lost = 0;
+  if (ranks.first())
+    for (const Jet<3>& jet : f.jets)
+      for (auto each : {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume})
+        lost = std::max(lost, std::abs((jet.*each).sum() / (f.jets[0].*each).sum() - 1));
+  CHECK(told_by_first(lost, ranks) < 1e-13);  // round-off of a hundred numbers
+}
+
+TEST_CASE("Two rates give the refined jet in subdomains that one rate gives of the whole") {
+  const Ranks& ranks = started_ranks();
+  const Directives jet = {"dynamic refinement threshold 0.4"};
+  constexpr double seconds = 0.0094;
+  const Parameters p = parameters(jet, cut);
+  const Flight whole = flight(parameters(jet, {"multirate no"}), {}, seconds),
+               subdomains = flight(p, ranks, seconds);
+  CHECK(subdomains.effort.split > 20);
+  CHECK(subdomains.effort.split == whole.effort.split);
+  // what is continued begins anew with every refinement
+  CHECK(subdomains.full_evaluations < 2 * subdomains.effort.evaluations / 3);
+  // tolerance 1e-6 stands for 1e-4 cm of 16 cm; the continuation may take half of it
+  CHECK(told_by_first(difference(subdomains, whole, p), ranks) < 5e-5 / 16);
+}
