@@ -33,26 +33,48 @@ void DistributedMotion::differentiate(const Jet<3>& jet, double t, const State<3
   J.subdomain = this;
 }
 
-/// The own beads and, from the ranks next along the chain, one on either side: state, mass, charge, volume.
+namespace {
+
+using Record = std::vector<double>;
+
+/// What the force on the other end of an element needs of a bead: state, mass, charge, volume, id.
+Record record_of(const Jet<3>& jet, const State<3>& y, Eigen::Index row) {
+  Record record(static_cast<std::size_t>(y.cols()));
+  for (Eigen::Index k = 0; k < y.cols(); ++k) record[static_cast<std::size_t>(k)] = y(row, k);
+  for (auto each : bead_constants) record.push_back((jet.*each)[row]);
+  if (jet.id.size() > 0) record.push_back(static_cast<double>(jet.id[row]));
+  return record;
+}
+
+void take_in(const Record& record, Jet<3>& jet, Eigen::Index row) {
+  auto next = record.begin();
+  for (Eigen::Index k = 0; k < jet.y.cols(); ++k) jet.y(row, k) = *next++;
+  for (auto each : bead_constants) (jet.*each)[row] = *next++;
+  if (jet.id.size() > 0) jet.id[row] = static_cast<std::int64_t>(*next);
+}
+
+}  // namespace
+
+/// The own beads and, from the ranks next along the chain, one on either side. Into tables that stay: a
+/// subdomain of half a million beads is copied at every evaluation.
 void DistributedMotion::extend(const Jet<3>& jet, const State<3>& y) {
   const Rows own = subdomains_.own();
-  const Eigen::Index ids = jet.id.size() > 0 ? 1 : 0;
-  State<3> beads(own.size(), y.cols() + Eigen::Index{bead_constants.size()} + ids);
-  beads.leftCols(y.cols()) = y.middleRows(own.first, own.size());
-  Eigen::Index column = y.cols();
-  for (auto each : bead_constants) beads.col(column++) = (jet.*each).segment(own.first, own.size());
-  if (ids > 0) beads.col(column) = jet.id.segment(own.first, own.size()).cast<double>();
-  beads = between_neighbours(beads);
-
-  first_ = subdomains_.older() >= 0 ? 1 : 0;
-  extended_.y = beads.leftCols(y.cols());
-  column = y.cols();
-  for (auto each : bead_constants) extended_.*each = beads.col(column++);
-  extended_.id.resize(0);
-  if (ids > 0) extended_.id = beads.col(column).cast<std::int64_t>();
+  const auto [older, younger] = of_neighbours([&](Eigen::Index row) { return record_of(jet, y, row); });
+  first_ = older.empty() ? 0 : 1;
+  const Eigen::Index n = first_ + own.size() + (younger.empty() ? 0 : 1);
+  extended_.y.resize(n, y.cols());
+  extended_.y.middleRows(first_, own.size()) = y.middleRows(own.first, own.size());
+  for (auto each : bead_constants) {
+    (extended_.*each).resize(n);
+    (extended_.*each).segment(first_, own.size()) = (jet.*each).segment(own.first, own.size());
+  }
+  extended_.id.resize(jet.id.size() > 0 ? n : 0);
+  if (jet.id.size() > 0) extended_.id.segment(first_, own.size()) = jet.id.segment(own.first, own.size());
+  if (!older.empty()) take_in(older, extended_, 0);
+  if (!younger.empty()) take_in(younger, extended_, n - 1);
   extended_.removed = subdomains_.before(jet) + own.first - first_;
-  extended_.from_oldest = first_ == 0;
-  extended_.to_youngest = subdomains_.younger() < 0;
+  extended_.from_oldest = older.empty();
+  extended_.to_youngest = younger.empty();
   extended_.held = jet.held && subdomains_.has_youngest();
   extended_.last_release = jet.last_release;
   if (!subdomains_.shares_volumes()) return;
@@ -60,33 +82,32 @@ void DistributedMotion::extend(const Jet<3>& jet, const State<3>& y) {
   extended_.first_of_all = extended_.removed - jet.removed;
 }
 
-State<3> DistributedMotion::between_neighbours(const State<3>& own) const {
+std::array<std::vector<double>, 2> DistributedMotion::of_neighbours(const RecordOfRow& record) const {
   const int older = subdomains_.older(), younger = subdomains_.younger();
-  const auto row = [&own](Eigen::Index i) {
-    const Eigen::Array<double, 1, Eigen::Dynamic> values = own.row(i);
-    return std::vector<double>(values.data(), values.data() + values.size());
-  };
+  const Rows own = subdomains_.own();
   Ranks::Messages messages(index(subdomains_.ranks().size()));
-  if (older >= 0) messages[index(older)] = row(0);
-  if (younger >= 0) messages[index(younger)] = row(own.rows() - 1);
-  const Ranks::Messages received = subdomains_.ranks().exchange(messages);
-
-  const Eigen::Index first = older >= 0 ? 1 : 0, n = first + own.rows() + (younger >= 0 ? 1 : 0);
-  State<3> all(n, own.cols());
-  all.middleRows(first, own.rows()) = own;
-  const auto take_in = [&](int rank, Eigen::Index at) {
-    if (rank >= 0)
-      all.row(at) =
-          Eigen::Map<const Eigen::Array<double, 1, Eigen::Dynamic>>(received[index(rank)].data(), own.cols());
-  };
-  take_in(older, 0);
-  take_in(younger, n - 1);
-  return all;
+  if (older >= 0) messages[index(older)] = record(own.first);
+  if (younger >= 0) messages[index(younger)] = record(own.last - 1);
+  Ranks::Messages received = subdomains_.ranks().exchange(messages);
+  std::array<std::vector<double>, 2> rows;
+  if (older >= 0) rows[0] = std::move(received[index(older)]);
+  if (younger >= 0) rows[1] = std::move(received[index(younger)]);
+  return rows;
 }
 
 State<3> DistributedMotion::with_neighbours(const State<3>& table) const {
+  using Row = Eigen::Array<double, 1, Eigen::Dynamic>;
   const Rows own = subdomains_.own();
-  return between_neighbours(table.middleRows(own.first, own.size()));
+  const auto row = [&](Eigen::Index i) {
+    const Row values = table.row(i);
+    return std::vector<double>(values.data(), values.data() + values.size());
+  };
+  const auto [older, younger] = of_neighbours(row);
+  State<3> all(first_ + own.size() + (younger.empty() ? 0 : 1), table.cols());
+  all.middleRows(first_, own.size()) = table.middleRows(own.first, own.size());
+  if (!older.empty()) all.row(0) = Eigen::Map<const Row>(older.data(), table.cols());
+  if (!younger.empty()) all.row(all.rows() - 1) = Eigen::Map<const Row>(younger.data(), table.cols());
+  return all;
 }
 
 void DistributedMotion::put_back(const State<3>& rows, State<3>& table) const {

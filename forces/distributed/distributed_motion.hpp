@@ -7,7 +7,10 @@
 /// ranks to all, so that their copies stay the same bits. A scheme that solves for the local terms finds here
 /// how the subdomains hang together (core/jet/subdomain_rows.hpp).
 
+#include <array>
+#include <functional>
 #include <optional>
+#include <vector>
 
 #include "forces/coulomb/solver/coulomb_solver.hpp"
 #include "forces/distributed/chain_decomposition.hpp"
@@ -61,8 +64,10 @@ class DistributedMotion final : public FullMotion<3>, private SubdomainRows<3> {
   }
 
   void extend(const Jet<3>& jet, const State<3>& y);
-  /// A row of each neighbour around a table of the own beads.
-  State<3> between_neighbours(const State<3>& own) const;
+  /// What the older and the younger neighbour say of their row next to ours, nothing where there is none;
+  /// they are told the same of ours.
+  using RecordOfRow = std::function<std::vector<double>(Eigen::Index row)>;
+  std::array<std::vector<double>, 2> of_neighbours(const RecordOfRow& record) const;
   void repel(Rows own, State<3>& slope);
   void bind_youngest_field(int own);
   void set_last_evaluation(const Jet<3>& jet, double t, const State<3>& y);
