@@ -3,8 +3,7 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
-#include "forces/distributed/chain_decomposition.hpp"
-#include "validation/support/run.hpp"
+#include "validation/tests/ranks/flight.hpp"
 #include "validation/tests/ranks/ranked.hpp"
 
 using namespace treejet;
@@ -20,18 +19,14 @@ struct Scenario {
   int releases, removals, splits, merges;  ///< at least
 };
 
-Parameters parameters(Directives all, const Directives& more) {
+Directives with(Directives all, const Directives& more) {
   all.insert(all.end(), more.begin(), more.end());
-  all.insert(all.end(), {"dynamic refinement yes", "final time 1"});
-  return example("pvp", all);
+  return all;
 }
 
-struct Flight {
-  std::vector<Jet<3>> jets;  ///< whole ones, on the first rank
-  Effort effort;
-  int recuts = 0;
-  std::int64_t full_evaluations = 0;  ///< at two rates
-};
+Parameters parameters(const Directives& all, const Directives& more) {
+  return example("pvp", with(with(all, more), {"dynamic refinement yes", "final time 1"}));
+}
 
 /// A bent thread, where nothing is inserted; bends straighten, and others are wound up.
 void bend(Run<3>& run) {
@@ -44,37 +39,7 @@ void bend(Run<3>& run) {
 Flight flight(const Parameters& p, const Ranks& ranks, double seconds) {
   Run<3> run(p, {1}, ranks);
   if (!p.inserting) bend(run);
-  Snapshots<3> snapshots(seconds / 4 / run.unit.time);
-  snapshots.sample_all(run.scene.decomposition());
-  Flight f;
-  f.effort = run.to(seconds, {&snapshots});
-  f.jets = snapshots.jets;
-  if (const auto* subdomains = dynamic_cast<const ChainDecomposition*>(&run.scene.decomposition()))
-    f.recuts = subdomains->recuts();
-  if (run.scene.multirate) f.full_evaluations = run.scene.multirate->full_evaluations();
-  return f;
-}
-
-/// The largest difference of a coordinate, against the distance from nozzle to collector; 1e300 if the beads
-/// are not the same ones, with the same ids, masses, charges and volumes.
-double difference(const Flight& a, const Flight& b, const Parameters& p) {
-  if (a.jets.size() != b.jets.size()) return 1e300;
-  double largest = 0;
-  for (std::size_t k = 0; k < a.jets.size(); ++k) {
-    const Jet<3>&one = a.jets[k], &other = b.jets[k];
-    if (one.size() != other.size() || one.removed != other.removed || (one.id != other.id).any())
-      return 1e300;
-    for (auto each : {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume})
-      if ((one.*each != other.*each).any()) return 1e300;
-    largest = std::max(largest, (one.y.leftCols<3>() - other.y.leftCols<3>()).abs().maxCoeff());
-  }
-  return largest * scales(p).length / p.collector_distance;
-}
-
-double told_by_first(double found, const Ranks& ranks) {
-  double value = ranks.first() ? found : 0;
-  ranks.sum({&value, 1});
-  return value;
+  return flight(run, seconds, seconds / 4);
 }
 
 const Directives cut = {"parallel distributed", "coulomb tree", "coulomb accuracy 1.d-6"};
@@ -93,11 +58,6 @@ const Directives thread = {"tolerance 1.d-7",
                            "surface tension model energy",
                            "dynamic refinement tolerance 2.d-2",
                            "dynamic refinement every 2.d-5"};
-
-Directives with(Directives all, const Directives& more) {
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
 
 }  // namespace
 

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <functional>
 
-#include "forces/distributed/chain_decomposition.hpp"
-#include "validation/support/run.hpp"
+#include "validation/tests/ranks/flight.hpp"
 #include "validation/tests/ranks/ranked.hpp"
 
 using namespace treejet;
@@ -29,14 +28,6 @@ Directives in_subdomains_at_two_rates(const std::string& accuracy) {
   return {"parallel distributed", "coulomb tree", "coulomb accuracy " + accuracy};
 }
 
-struct Flight {
-  std::vector<Jet<3>> jets;  ///< whole ones, on the first rank
-  Effort effort;
-  int recuts = 0;
-  std::int64_t full_evaluations = 0;  ///< at two rates
-  double t = 0;
-};
-
 /// No two beads of the initial jet weigh, repel or fill alike: what takes one number for another shows.
 void make_unequal(Scene<3>& scene) {
   const auto* pieces = dynamic_cast<const ChainDecomposition*>(&scene.decomposition());
@@ -51,37 +42,7 @@ void make_unequal(Scene<3>& scene) {
 Flight flight(const Parameters& p, const Ranks& ranks, double seconds, double interval) {
   Run<3> run(p, {1}, ranks);
   make_unequal(run.scene);
-  Snapshots<3> snapshots(interval / run.unit.time);
-  snapshots.sample_all(run.scene.decomposition());
-  Flight f;
-  f.effort = run.to(seconds, {&snapshots});
-  f.jets = snapshots.jets;
-  if (const auto* subdomains = dynamic_cast<const ChainDecomposition*>(&run.scene.decomposition()))
-    f.recuts = subdomains->recuts();
-  if (run.scene.multirate) f.full_evaluations = run.scene.multirate->full_evaluations();
-  f.t = run.jet().t;
-  return f;
-}
-
-/// The largest difference of a coordinate, against the distance from nozzle to collector; 1e300 if the beads
-/// are not the same ones, with the same masses, charges and volumes.
-double difference(const Flight& a, const Flight& b, const Parameters& p) {
-  if (a.jets.size() != b.jets.size()) return 1e300;
-  double largest = 0;
-  for (std::size_t k = 0; k < a.jets.size(); ++k) {
-    if (a.jets[k].size() != b.jets[k].size() || a.jets[k].removed != b.jets[k].removed) return 1e300;
-    for (auto each : {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume})
-      if ((a.jets[k].*each != b.jets[k].*each).any()) return 1e300;
-    largest = std::max(largest, (a.jets[k].y.leftCols<3>() - b.jets[k].y.leftCols<3>()).abs().maxCoeff());
-  }
-  return largest * scales(p).length / p.collector_distance;
-}
-
-/// What the first rank has found, to all.
-double told_by_first(double found, const Ranks& ranks) {
-  double value = ranks.first() ? found : 0;
-  ranks.sum({&value, 1});
-  return value;
+  return flight(run, seconds, interval);
 }
 
 }  // namespace
