@@ -4,10 +4,14 @@
 #include <fmt/ranges.h>
 #include <hdf5.h>
 
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/io/division_guard.hpp"
+#include "core/io/object_header.hpp"
 
 namespace treejet {
 
@@ -59,6 +63,7 @@ class Handle {
   }
 
   operator hid_t() const { return id_; }  // NOLINT: so that it goes wherever the library takes a handle
+  hid_t release() { return std::exchange(id_, -1); }
 
  private:
   hid_t id_;
@@ -115,22 +120,88 @@ std::string without_padding(std::string text) {
   throw FileError(fmt::format("{}: {} {}", path.string(), object, why));
 }
 
-/// A dataset whose values are in this very file. Soft and external links, external raw data and virtual
-/// datasets lead elsewhere, as far as any file that the user may read, and Treejet writes none.
-Handle own_dataset(hid_t file, const std::filesystem::path& path, const std::string& name) {
-  const Checker check(path, name);
+/// The address of the object that a link leads to. All of its name must be hard links: soft and external ones
+/// lead elsewhere, as far as any file that the user may read.
+std::uint64_t own_object(hid_t file, const std::filesystem::path& path, const std::string& name) {
+  H5L_info_t link;
   for (auto end = name.find('/', 1);; end = name.find('/', end + 1)) {
-    H5L_info_t link;
-    check(H5Lget_info(file, name.substr(0, end).c_str(), &link, H5P_DEFAULT), "cannot be read");
+    Checker(path, name)(H5Lget_info(file, name.substr(0, end).c_str(), &link, H5P_DEFAULT), "cannot be read");
     if (link.type != H5L_TYPE_HARD) refuse(path, name, "is a link that may lead out of the file");
     if (end == std::string::npos) break;
   }
-  const DivisionGuard guard(path);
-  Handle set(check(H5Dopen2(file, name.c_str(), H5P_DEFAULT), "cannot be read"), H5Dclose);
-  const Handle content(check(H5Dget_create_plist(set), "cannot be read"), H5Pclose);
-  if (H5Pget_external_count(content) != 0 || H5Pget_layout(content) == H5D_VIRTUAL)
-    refuse(path, name, "has its values in another file");
-  return set;
+  std::uint64_t address = 0;  // a number up to HDF5 1.10, from 1.12 on its bytes in a token
+  std::memcpy(&address, &link.u, sizeof address);
+  return address;
+}
+
+/// Bytes in front of what the file's addresses count from.
+std::uint64_t origin_of_addresses(hid_t file, const std::filesystem::path& path) {
+  const Checker check(path, "");
+  const Handle form(check(H5Fget_create_plist(file), "cannot be read"), H5Pclose);
+  std::size_t address = 0, length = 0;
+  hsize_t origin = 0;
+  check(H5Pget_sizes(form, &address, &length), "cannot be read");
+  check(H5Pget_userblock(form, &origin), "cannot be read");
+  if (address != sizeof(std::uint64_t) || length != address) refuse(path, "", "not addressed by eight bytes");
+  return origin;
+}
+
+/// A dataset opened without a cache for chunks: into one HDF5 reads as many bytes as the file says that a
+/// chunk has, and without one it goes by the extent, where there are no filters.
+hid_t opened_to_read(hid_t file, const std::string& name) {
+  const Handle list(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk_cache(list, 0, 0, H5D_CHUNK_CACHE_W0_DEFAULT);
+  return H5Dopen2(file, name.c_str(), list);
+}
+
+bool holds_numbers(hid_t type) {
+  const std::array<hid_t, 20> known = {H5T_IEEE_F64LE, H5T_STD_I64LE, H5T_IEEE_F32LE, H5T_IEEE_F64BE,
+                                       H5T_IEEE_F32BE, H5T_STD_I8LE,  H5T_STD_I16LE,  H5T_STD_I32LE,
+                                       H5T_STD_I8BE,   H5T_STD_I16BE, H5T_STD_I32BE,  H5T_STD_I64BE,
+                                       H5T_STD_U8LE,   H5T_STD_U16LE, H5T_STD_U32LE,  H5T_STD_U64LE,
+                                       H5T_STD_U8BE,   H5T_STD_U16BE, H5T_STD_U32BE,  H5T_STD_U64BE};
+  return std::any_of(known.begin(), known.end(), [&](hid_t one) { return H5Tequal(type, one) > 0; });
+}
+
+/// Those that chunks have gone through. Any other is unknown here, and HDF5 would look for a program that
+/// undoes it.
+std::vector<ChunkFilter> filters_of(hid_t content, const std::filesystem::path& path,
+                                    std::string_view object) {
+  std::vector<ChunkFilter> filters;
+  const int count = Checker(path, object)(H5Pget_nfilters(content), "cannot be read");
+  for (unsigned k = 0; k < static_cast<unsigned>(count); ++k) {
+    unsigned flags = 0;
+    std::size_t none = 0;
+    const H5Z_filter_t filter = H5Pget_filter2(content, k, &flags, &none, nullptr, 0, nullptr, nullptr);
+    switch (filter) {
+      case H5Z_FILTER_SHUFFLE:
+        filters.push_back(ChunkFilter::shuffle);
+        break;
+      case H5Z_FILTER_DEFLATE:
+        filters.push_back(ChunkFilter::deflate);
+        break;
+      case H5Z_FILTER_FLETCHER32:
+        filters.push_back(ChunkFilter::fletcher32);
+        break;
+      default:
+        refuse(path, object, "is compressed otherwise than by shuffle and deflate (gzip)");
+    }
+  }
+  return filters;
+}
+
+double volume(const std::vector<hsize_t>& size) {
+  double values = 1;
+  for (const hsize_t n : size) values *= static_cast<double>(n);
+  return values;
+}
+
+std::vector<hsize_t> size_of(hid_t set, const Checker& check) {
+  const Handle space(check(H5Dget_space(set), "cannot be read"), H5Sclose);
+  std::vector<hsize_t> now(
+      static_cast<std::size_t>(check(H5Sget_simple_extent_ndims(space), "cannot be read")));
+  if (!now.empty()) check(H5Sget_simple_extent_dims(space, now.data(), nullptr), "cannot be read");
+  return now;
 }
 
 /// The size of the one text of fixed length that is there, of `stored` bytes in the file.
@@ -155,7 +226,7 @@ bool plausible(const Extent& extent, hsize_t stored) {
 
 }  // namespace
 
-Hdf5File::Hdf5File(std::filesystem::path path, Access access) : path_(std::move(path)) {
+Hdf5File::Hdf5File(std::filesystem::path path, Access access) : path_(std::move(path)), access_(access) {
   start_library();
   const Checker check(path_, "");
   const Handle how(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -287,29 +358,98 @@ bool Hdf5File::has(const std::string& name) const {
   }
 }
 
-Extent Hdf5File::extent(const std::string& dataset) const {
+/// A dataset whose values are in this very file. External raw data are elsewhere, and Treejet writes none.
+Hdf5File::Id Hdf5File::open(const std::string& dataset) const {
   const Checker check(path_, dataset);
-  const Handle set = own_dataset(file_, path_, dataset);
-  const Handle type(check(H5Dget_type(set), "cannot be read"), H5Tclose);
-  if (H5Tget_class(type) != H5T_FLOAT && H5Tget_class(type) != H5T_INTEGER)
-    refuse(path_, dataset, "does not hold numbers");
-  const Handle space(check(H5Dget_space(set), "cannot be read"), H5Sclose);
-  std::vector<hsize_t> now(
-      static_cast<std::size_t>(check(H5Sget_simple_extent_ndims(space), "cannot be read")));
-  if (now.empty()) refuse(path_, dataset, "is one value, not a table");
-  check(H5Sget_simple_extent_dims(space, now.data(), nullptr), "cannot be read");
-  Extent extent(now.begin(), now.end());
-  if (const hsize_t stored = H5Dget_storage_size(set); !plausible(extent, stored))
+  const std::uint64_t address = own_object(file_, path_, dataset);
+  // what is being written need not be in the file yet
+  if (access_ == Access::read && !stored_.contains(dataset))
+    check_layout(path_, dataset, origin_of_addresses(file_, path_) + address);
+  Handle set(check(opened_to_read(file_, dataset), "cannot be read"), H5Dclose);
+  const Handle content(check(H5Dget_create_plist(set), "cannot be read"), H5Pclose);
+  if (H5Pget_external_count(content) != 0 || H5Pget_layout(content) == H5D_VIRTUAL)
+    refuse(path_, dataset, "has its values in another file");
+  return set.release();
+}
+
+Hdf5File::Stored& Hdf5File::stored(const std::string& dataset, Id set) const {
+  if (const auto known = stored_.find(dataset); known != stored_.end()) return known->second;
+  const Checker check(path_, dataset);
+  const Handle type(check(H5Dget_type(set), "cannot be read"), H5Tclose),
+      content(check(H5Dget_create_plist(set), "cannot be read"), H5Pclose);
+  if (!holds_numbers(type)) refuse(path_, dataset, "does not hold numbers");
+  const std::vector<hsize_t> size = size_of(set, check);
+  if (size.empty()) refuse(path_, dataset, "is one value, not a table");
+  const double value_bytes = static_cast<double>(H5Tget_size(type));
+  Stored found;
+  if (H5Pget_layout(content) == H5D_CHUNKED) {
+    std::vector<hsize_t> chunk(size.size());
+    const int rank = static_cast<int>(size.size());
+    if (H5Pget_chunk(content, rank, chunk.data()) != rank)
+      refuse(path_, dataset, "has chunks of another rank");
+    const double bytes = volume(chunk) * value_bytes;
+    if (!(bytes > 0 && bytes <= std::numeric_limits<std::uint32_t>::max()))
+      refuse(path_, dataset, "has chunks of a size that HDF5 cannot have made");
+    found = {{chunk.begin(), chunk.end()},
+             filters_of(content, path_, dataset),
+             static_cast<std::uint64_t>(bytes),
+             {}};
+  } else if (const hsize_t bytes = H5Dget_storage_size(set);
+             volume(size) * value_bytes > static_cast<double>(bytes)) {
     refuse(path_, dataset,
-           fmt::format("claims {} values, but {} bytes are stored", fmt::join(extent, " x "), stored));
+           fmt::format("claims {} values, but {} bytes are stored", fmt::join(size, " x "), bytes));
+  }
+  return stored_.emplace(dataset, std::move(found)).first->second;
+}
+
+/// Whether the chunk is in the file; refused if it is longer or shorter than its extent.
+bool Hdf5File::has_sound_chunk(const std::string& dataset, Id set, const Extent& place) const {
+  const Checker check(path_, dataset);
+  const Stored& form = stored_.at(dataset);
+  std::vector<hsize_t> first(place.begin(), place.end());
+  for (std::size_t k = 0; k < first.size(); ++k) first[k] *= form.chunk[k];
+  hsize_t bytes = 0, of_file = 0;
+  if (H5Dget_chunk_storage_size(set, first.data(), &bytes) < 0) {
+    if (reason() == "chunk storage is not allocated") return false;
+    check(-1, "cannot be read");
+  }
+  if (bytes == 0) return false;
+  const auto damaged = [&] {
+    refuse(path_, dataset,
+           fmt::format("is damaged: its chunk at {} is not of {} bytes", fmt::join(first, ", "),
+                       form.chunk_bytes));
+  };
+  if (form.filters.empty()) {
+    if (bytes != form.chunk_bytes) damaged();
+    return true;
+  }
+  check(H5Fget_filesize(file_, &of_file), "cannot be read");
+  if (bytes > of_file) damaged();
+  std::string text(bytes, '\0');
+  std::uint32_t skipped = 0;
+  check(H5Dread_chunk(set, H5P_DEFAULT, first.data(), &skipped, text.data()), "cannot be read");
+  if (unfiltered_length(text, form.filters, skipped, form.chunk_bytes) != form.chunk_bytes) damaged();
+  return true;
+}
+
+Extent Hdf5File::extent(const std::string& dataset) const {
+  const Handle set(open(dataset), H5Dclose);
+  const bool in_chunks = !stored(dataset, set).chunk.empty();
+  const std::vector<hsize_t> now = size_of(set, Checker(path_, dataset));
+  Extent extent(now.begin(), now.end());
+  if (const hsize_t bytes = H5Dget_storage_size(set); in_chunks && !plausible(extent, bytes))
+    refuse(path_, dataset,
+           fmt::format("claims {} values, but {} bytes are stored", fmt::join(extent, " x "), bytes));
   return extent;
 }
 
 std::string Hdf5File::text(const std::string& dataset) const {
   const Checker check(path_, dataset);
-  const Handle set = own_dataset(file_, path_, dataset);
+  const Handle set(open(dataset), H5Dclose);
   const Handle type(check(H5Dget_type(set), "cannot be read"), H5Tclose),
-      space(check(H5Dget_space(set), "cannot be read"), H5Sclose);
+      space(check(H5Dget_space(set), "cannot be read"), H5Sclose),
+      content(check(H5Dget_create_plist(set), "cannot be read"), H5Pclose);
+  if (H5Pget_layout(content) == H5D_CHUNKED) refuse(path_, dataset, "is not one text of fixed length");
   std::string value(text_size(type, space, H5Dget_storage_size(set), path_, dataset), '\0');
   check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data()), "cannot be read");
   return without_padding(value);
@@ -334,33 +474,62 @@ void Hdf5File::resize(const std::string& dataset, const Extent& extent) {
   check(H5Dset_extent(set, now.data()), "cannot grow");
 }
 
-void Hdf5File::transfer(const std::string& dataset, const Box& box, bool writes, Id memory_type,
-                        void* values) const {
+void Hdf5File::write(const std::string& dataset, const Box& box, Id type, const void* values) {
   const Checker check(path_, dataset);
   const std::vector<hsize_t> first(box.first.begin(), box.first.end()),
       size(box.size.begin(), box.size.end());
-  const Handle set = own_dataset(file_, path_, dataset);
+  const Handle set(check(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), "cannot be opened"), H5Dclose);
   const Handle place(check(H5Dget_space(set), "cannot be opened"), H5Sclose);
   const Handle memory(check(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), "space"),
                       H5Sclose);
   check(H5Sselect_hyperslab(place, H5S_SELECT_SET, first.data(), nullptr, size.data(), nullptr), "selection");
-  if (writes)
-    check(H5Dwrite(set, memory_type, memory, place, H5P_DEFAULT, values), "cannot be written");
-  else
-    check(H5Dread(set, memory_type, memory, place, H5P_DEFAULT, values), "cannot be read");
+  check(H5Dwrite(set, type, memory, place, H5P_DEFAULT, values), "cannot be written");
+}
+
+template <class T>
+void Hdf5File::read(const std::string& dataset, const Box& box, Id type, T* values, T absent) const {
+  const Checker check(path_, dataset);
+  const std::vector<hsize_t> size(box.size.begin(), box.size.end());
+  const Handle set(open(dataset), H5Dclose);
+  const Handle file(check(H5Dget_space(set), "cannot be opened"), H5Sclose);
+  const Handle memory(check(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), "space"),
+                      H5Sclose);
+  Stored& form = stored(dataset, set);
+  std::vector<Box> parts = {box};
+  if (!form.chunk.empty()) {
+    std::set<Extent> sound;
+    parts = parts_there(box, form.chunk, [&](const Extent& place) {
+      if (!form.sound.contains(place) && !has_sound_chunk(dataset, set, place)) return false;
+      sound.insert(place);
+      return true;
+    });
+    form.sound = std::move(sound);
+  }
+  if (parts != std::vector{box}) std::fill_n(values, static_cast<std::size_t>(volume(size)), absent);
+  for (const Box& part : parts) {
+    const std::vector<hsize_t> first(part.first.begin(), part.first.end()),
+        part_size(part.size.begin(), part.size.end());
+    std::vector<hsize_t> in_memory(first);
+    for (std::size_t k = 0; k < first.size(); ++k) in_memory[k] -= box.first[k];
+    check(H5Sselect_hyperslab(file, H5S_SELECT_SET, first.data(), nullptr, part_size.data(), nullptr),
+          "selection");
+    check(H5Sselect_hyperslab(memory, H5S_SELECT_SET, in_memory.data(), nullptr, part_size.data(), nullptr),
+          "selection");
+    check(H5Dread(set, type, memory, file, H5P_DEFAULT, values), "cannot be read");
+  }
 }
 
 void Hdf5File::write(const std::string& dataset, const Box& box, const double* values) {
-  transfer(dataset, box, true, H5T_NATIVE_DOUBLE, const_cast<double*>(values));
+  write(dataset, box, H5T_NATIVE_DOUBLE, values);
 }
 void Hdf5File::write(const std::string& dataset, const Box& box, const std::int64_t* values) {
-  transfer(dataset, box, true, H5T_NATIVE_INT64, const_cast<std::int64_t*>(values));
+  write(dataset, box, H5T_NATIVE_INT64, values);
 }
 void Hdf5File::read(const std::string& dataset, const Box& box, double* values) const {
-  transfer(dataset, box, false, H5T_NATIVE_DOUBLE, values);
+  read(dataset, box, H5T_NATIVE_DOUBLE, values, std::numeric_limits<double>::quiet_NaN());
 }
 void Hdf5File::read(const std::string& dataset, const Box& box, std::int64_t* values) const {
-  transfer(dataset, box, false, H5T_NATIVE_INT64, values);
+  read(dataset, box, H5T_NATIVE_INT64, values, std::int64_t{-1});
 }
 
 bool is_hdf5(const std::filesystem::path& path) {

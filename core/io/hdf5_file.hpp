@@ -8,18 +8,25 @@
 /// that would lock out readers after a death of the program. They are consistent once closed, not before:
 /// core/io/h5md_trajectory.hpp says how a run lives with that.
 ///
+/// What is read is first looked at, as HDF5 1.10 reads beyond its own memory where a file claims more than it
+/// holds: the header of a dataset before it is opened (core/io/object_header.hpp), its type, layout and
+/// filters, and of each chunk that is read the length once its filters are undone (core/io/chunks.hpp).
+/// Values of chunks that are not there are NaN or -1, whatever the file names as its fill value.
+///
 /// Errors are FileErrors that name file and object, with the reason of the system if there is one. HDF5's own
 /// C interface and not its C++ one, which has no gain to show for a second library; HighFive is not in
 /// Debian.
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
-namespace treejet {
+#include "core/io/chunks.hpp"
 
-using Extent = std::vector<std::uint64_t>;
+namespace treejet {
 
 class Hdf5File {
  public:
@@ -61,10 +68,7 @@ class Hdf5File {
 
   void resize(const std::string& dataset, const Extent& extent);
 
-  /// A box of a dataset: its first corner and its size, row-major as in C.
-  struct Box {
-    Extent first, size;
-  };
+  using Box = TableBox;
   void write(const std::string& dataset, const Box& box, const double* values);
   void write(const std::string& dataset, const Box& box, const std::int64_t* values);
   void read(const std::string& dataset, const Box& box, double* values) const;
@@ -73,10 +77,25 @@ class Hdf5File {
  private:
   using Id = std::int64_t;
 
-  void transfer(const std::string& dataset, const Box& box, bool writes, Id memory_type, void* values) const;
+  /// How the values of a dataset lie in the file.
+  struct Stored {
+    Extent chunk;  ///< none if they lie in one piece
+    std::vector<ChunkFilter> filters;
+    std::uint64_t chunk_bytes = 0;
+    std::set<Extent> sound;  ///< chunks of the last box that was read, by their place among chunks
+  };
+
+  Stored& stored(const std::string& dataset, Id set) const;
+  bool has_sound_chunk(const std::string& dataset, Id set, const Extent& place) const;
+  void write(const std::string& dataset, const Box& box, Id type, const void* values);
+  template <class T>
+  void read(const std::string& dataset, const Box& box, Id type, T* values, T absent) const;
+  Id open(const std::string& dataset) const;
 
   std::filesystem::path path_;
+  Access access_;
   Id file_ = -1;
+  mutable std::map<std::string, Stored> stored_;
 };
 
 /// Whether the file begins as an HDF5 file does.

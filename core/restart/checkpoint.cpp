@@ -1,13 +1,13 @@
 #include "core/restart/checkpoint.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <fstream>
 
+#include "core/base/compression.hpp"
 #include "core/base/error.hpp"
 #include "core/base/lines.hpp"
 #include "core/io/atomic_file.hpp"
@@ -39,17 +39,12 @@ std::string_view bytes_of(const T& plain) {
   return {reinterpret_cast<const char*>(&plain), sizeof plain};
 }
 
-/// Of bytes that follow others, whose checksum is `before`.
-std::uint64_t checksum(std::string_view bytes, std::uint64_t before = 0) {
-  return crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
-}
-
 std::uint64_t checksum(const Seal&, std::string_view body) {
-  return checksum(body);
+  return crc32(body);
 }
 
 std::uint64_t checksum(const RecordSeal& seal, std::string_view record) {
-  return checksum(record, checksum(bytes_of(seal).substr(0, offsetof(RecordSeal, checksum))));
+  return crc32(record, crc32(bytes_of(seal).substr(0, offsetof(RecordSeal, checksum))));
 }
 
 }  // namespace
@@ -227,7 +222,7 @@ void Checkpoints::write(Checkpoint& checkpoint, const std::function<void(const W
   Archive archive;
   archive(checkpoint);
   const std::string payload = std::move(archive).bytes();
-  const Seal seal{.length = payload.size(), .checksum = checksum(payload)};
+  const Seal seal{.length = payload.size(), .checksum = crc32(payload)};
   std::error_code error;
   fs::remove(directory_ / unfinished, error);  // a link goes itself, not what it leads to
   OutputFile file(directory_ / unfinished, OutputFile::Existing::keep);

@@ -1,11 +1,6 @@
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
-#include <cstdio>
 #include <fstream>
 #include <random>
-#include <sstream>
 
 #include "core/base/error.hpp"
 #include "core/commands/convert.hpp"
@@ -253,48 +248,4 @@ TEST_CASE("A trajectory cut short anywhere is refused, never read in part") {
     CHECK_THROWS_AS(convert({cut, "csv", place.path / "never.csv"}), FileError);
   }
   CHECK_FALSE(fs::exists(place.path / "never.csv"));
-}
-
-TEST_CASE(
-    "A file whose chunks have no extent, over which HDF5 divides by zero, ends with code 4 and its name") {
-  const Place place;
-  const fs::path path = place.path / "no-chunk.h5";
-  constexpr std::uint64_t extent = 977;  // as no other number in the file
-  {
-    Hdf5File file(path, Hdf5File::Access::create);
-    file.dataset("/values", {.extent = {extent}, .chunk = {extent}});
-    file.close();
-  }
-  std::stringstream read;
-  read << std::ifstream(path, std::ios::binary).rdbuf();
-  std::string bytes = read.str();
-  // of the four bytes of the chunk those of a dataspace differ: they are eight
-  const std::string chunk("\xd1\x03\0\0\x08\0\0\0", 8);
-  const std::size_t at = bytes.find(chunk);
-  REQUIRE(at != std::string::npos);
-  std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), 4, '\0');
-  std::ofstream(path, std::ios::binary) << bytes;
-
-  const fs::path told = place.path / "told";
-  const pid_t child = ::fork();
-  REQUIRE(child >= 0);
-  if (child == 0) {
-    if (!std::freopen(told.c_str(), "w", stderr)) ::_exit(1);
-    int code = 0;
-    try {
-      Hdf5File(path, Hdf5File::Access::read).extent("/values");
-    } catch (const Error& error) {  // a library that tells
-      fmt::print(stderr, "{}\n", error.what());
-      std::fflush(stderr);
-      code = error.exit_code();
-    }
-    ::_exit(code);
-  }
-  int status = 0;
-  REQUIRE(::waitpid(child, &status, 0) == child);
-  REQUIRE(WIFEXITED(status));
-  CHECK(WEXITSTATUS(status) == 4);
-  std::stringstream message;
-  message << std::ifstream(told).rdbuf();
-  CHECK(message.str().find("no-chunk.h5") != std::string::npos);
 }

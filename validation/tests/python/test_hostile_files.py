@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import zlib
 
 import h5py
 import numpy as np
@@ -65,8 +66,18 @@ def deck_in_raw_storage(file, folder):
     h5py.h5d.create(file.id, b"/parameters/deck", kind, h5py.h5s.create_simple((1,)), create)
 
 
+def identities_in_short_chunks(file, _):
+    again(file, ID, data=file[ID][:], chunks=file[ID].chunks, compression="gzip")
+    file[ID].id.write_direct_chunk((0, 0), zlib.compress(bytes(8)))
+
+
+def identities_in_chunks_of_another_filter(file, _):
+    again(file, ID, data=file[ID][:], chunks=file[ID].chunks, compression="lzf")
+
+
 KINDS = [text_that_is_a_table, text_of_any_length, text_of_two_gigabytes, name_that_is_a_table, more_points_than_any_memory,
-         identities_without_extent, frames_without_end, deck_in_another_file, deck_in_raw_storage]
+         identities_without_extent, frames_without_end, deck_in_another_file, deck_in_raw_storage,
+         identities_in_short_chunks, identities_in_chunks_of_another_filter]
 
 
 @pytest.mark.parametrize("tamper", KINDS, ids=lambda kind: kind.__name__)
@@ -80,3 +91,41 @@ def test_a_tampered_trajectory_is_refused_in_a_line(jet, tmp_path, tamper):
         done = subprocess.run([os.environ["TREEJET"], *command], capture_output=True, timeout=60, text=True)
         assert done.returncode == 4, (command, done)
         assert done.stderr.count("\n") == 1 and "SECRET" not in done.stdout + done.stderr
+
+
+def rewritten(source, target, **form):
+    """All of a trajectory in a file of HDF5's newest form."""
+    with h5py.File(source) as old, h5py.File(target, "w", libver="latest") as new:
+        def take(name, thing):
+            if isinstance(thing, h5py.Group):
+                new.require_group(name)
+            else:
+                new.create_dataset(name, data=thing[()], **(form if thing.shape else {}))
+            for key in thing.attrs:
+                new[name].attrs.create(key, thing.attrs[key])
+        for name in names_in(old):
+            take(name, old[name])
+
+
+def names_in(group, above=""):
+    """All names, links to the same object among them."""
+    for key, thing in group.items():
+        yield above + key
+        if isinstance(thing, h5py.Group):
+            yield from names_in(thing, f"{above}{key}/")
+
+
+def test_what_others_rewrite_in_one_piece_in_the_newest_form_is_read_as_before(jet, tmp_path):
+    tables = []
+    rewritten(jet.directory / "traj.h5", tmp_path / "traj.h5")
+    for source in (jet.directory / "traj.h5", tmp_path / "traj.h5"):
+        out = tmp_path / f"{len(tables)}.csv"
+        subprocess.run([os.environ["TREEJET"], "convert", str(source), "--to", "csv", "--out", str(out)], check=True)
+        tables.append(out.read_bytes())
+    assert tables[0] == tables[1]
+
+
+def test_chunks_of_the_newest_form_are_refused_with_what_rewrites_them(jet, tmp_path):
+    rewritten(jet.directory / "traj.h5", tmp_path / "traj.h5", chunks=True)
+    done = subprocess.run([os.environ["TREEJET"], "info", str(tmp_path / "traj.h5")], capture_output=True, text=True)
+    assert done.returncode == 4 and "h5repack OLD NEW" in done.stderr

@@ -1,0 +1,211 @@
+/// HDF5 files that claim what they do not hold, where the library (1.10) goes by the claim: each is refused,
+/// or read by what is there, before the library reads beyond its memory or divides by zero.
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include "core/base/compression.hpp"
+#include "core/base/error.hpp"
+#include "core/io/atomic_file.hpp"
+#include "core/io/hdf5_file.hpp"
+#include "validation/support/scratch_directory.hpp"
+
+using namespace treejet;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr std::uint64_t n = 64;
+
+/// A table of n numbers in one chunk, none of which is twice there, so that deflate does not shorten them.
+std::string file_of_a_table(const std::filesystem::path& path, bool compressed) {
+  Hdf5File file(path, Hdf5File::Access::create);
+  std::vector<double> values(n);
+  for (std::size_t k = 0; k < n; ++k) values[k] = std::sin(double(k));
+  file.dataset("/t", {.extent = {n}, .chunk = {n}, .compressed = compressed});
+  file.write("/t", {{0}, {n}}, values.data());
+  file.close();
+  return read_whole(path);
+}
+
+std::vector<double> table_in(const std::filesystem::path& path, const std::string& bytes) {
+  write_whole(path, bytes);
+  const Hdf5File file(path, Hdf5File::Access::read);
+  std::vector<double> values(file.extent("/t").at(0));
+  file.read("/t", {{0}, {values.size()}}, values.data());
+  return values;
+}
+
+/// The file's bytes with others in place of those `after` further than where `mark` begins.
+std::string patched(std::string bytes, std::string_view mark, std::ptrdiff_t after, std::string_view with) {
+  const std::size_t at = bytes.find(mark);
+  REQUIRE(at != std::string::npos);
+  REQUIRE(bytes.find(mark, at + 1) == std::string::npos);
+  return bytes.replace(at + static_cast<std::size_t>(after), with.size(), with);
+}
+
+template <std::size_t size>
+std::string_view text(const char (&literal)[size]) {
+  return {literal, size - 1};
+}
+
+// where things are in the file of a table
+constexpr std::string_view extents_of_chunk{"\x40\0\0\0\x08\0\0\0", 8};  // 11 bytes into the layout
+constexpr std::string_view tree{"TREE\1\0\1\0", 8};                      // 24 bytes in front of length, mask
+constexpr std::string_view deflated{"\x78\x01", 2};
+constexpr std::string_view eight_zeros_deflated{"\x78\x01\x63\x60\x80\0\0\0\x08\0\x01", 11};
+
+}  // namespace
+
+TEST_CASE("A chunk that inflates to less than its extent, or to more, is refused") {
+  const Place place;
+  const auto path = place.path / "table.h5";
+  const std::string whole = file_of_a_table(path, true);
+  REQUIRE(table_in(path, whole)[n - 1] == std::sin(double(n - 1)));
+  CHECK_THROWS_WITH(table_in(path, patched(whole, deflated, 0, eight_zeros_deflated)),
+                    Contains("its chunk at 0 is not of 512 bytes"));
+  // five thousand zeros
+  const auto more = text(
+      "\x78\x01\xed\xd0\x31\x01\0\0\0\xc2\xa0\xf5\x4f\x6d\x0a\x3f\x88\x40\x61\xc0\x80\x01\x03\x06\x0c\x18\x30"
+      "\x60\xc0\x80\x01\x03\x06\x0c\x18\x30\x60\xc0\xc0\x7b\x60\x13\x88\0\x01");
+  CHECK_THROWS_AS(table_in(path, patched(whole, deflated, 0, more)), FileError);
+  CHECK_THROWS_AS(table_in(path, patched(whole, deflated, 30, "damaged")), FileError);
+}
+
+TEST_CASE("A chunk is refused if it is said to have gone through other filters than make up its extent") {
+  const Place place;
+  const auto path = place.path / "table.h5";
+  const std::string whole = file_of_a_table(path, true);
+  for (const char* skipped : {"\1", "\2", "\3"}) {
+    CAPTURE(int(*skipped));
+    if (*skipped == 1)  // shuffle alone: the right length, though other numbers
+      CHECK_NOTHROW(table_in(path, patched(whole, tree, 28, skipped)));
+    else
+      CHECK_THROWS_AS(table_in(path, patched(whole, tree, 28, skipped)), FileError);
+  }
+  constexpr std::string_view name{"deflate\0", 8};
+  CHECK_THROWS_WITH(table_in(path, patched(whole, name, -8, "\4")), Contains("otherwise than by shuffle"));
+}
+
+TEST_CASE("An uncompressed chunk is read by its extent, whatever length it is said to have") {
+  const Place place;
+  const auto path = place.path / "table.h5";
+  const std::string whole = file_of_a_table(path, false);
+  const std::vector<double> values = table_in(path, whole);
+  for (const std::string_view length : {text("\x08\0\0\0"), text("\0\0\0\x7f")})
+    CHECK(table_in(path, patched(whole, tree, 24, length)) == values);
+}
+
+TEST_CASE("Chunks of no extent, or of more or fewer extents than their table has, are refused") {
+  const Place place;
+  const auto path = place.path / "table.h5";
+  const std::string whole = file_of_a_table(path, true);
+  const auto with = [&](std::ptrdiff_t after, std::string_view bytes) {
+    return patched(whole, extents_of_chunk, after, bytes);
+  };
+  CHECK_THROWS_WITH(table_in(path, with(0, text("\0"))), Contains("chunks without extent"));
+  CHECK_THROWS_WITH(table_in(path, with(4, text("\0"))), Contains("chunks without extent"));
+  CHECK_THROWS_WITH(table_in(path, with(-9, "\1")), Contains("its header is none"));
+  CHECK_THROWS_AS(table_in(path, with(-9, "\3")), FileError);
+  // chunks of 2^30 and 2^31 numbers
+  CHECK_THROWS_AS(table_in(path, with(0, text("\0\0\0\x40"))), FileError);
+  CHECK_THROWS_AS(table_in(path, with(0, text("\0\0\0\x80"))), FileError);
+}
+
+TEST_CASE("Numbers are read by the size of their type, not by the one that chunks are said to have") {
+  const Place place;
+  const auto path = place.path / "table.h5";
+  for (const bool compressed : {false, true}) {
+    const std::string whole = file_of_a_table(path, compressed);
+    const std::vector<double> values = table_in(path, whole);
+    for (const char* size : {"\4", "\x10"})
+      CHECK(table_in(path, patched(whole, extents_of_chunk, 4, size)) == values);
+  }
+}
+
+TEST_CASE("Layouts of other versions, and of other files, are refused before the library opens them") {
+  const Place place;
+  const auto path = place.path / "table.h5";
+  const std::string whole = file_of_a_table(path, true);
+  for (const char* version : {"\1", "\2", "\4"})
+    CHECK_THROWS_WITH(table_in(path, patched(whole, extents_of_chunk, -11, version)), Contains("h5repack"));
+  CHECK_THROWS_WITH(table_in(path, patched(whole, extents_of_chunk, -11, "\4\3")), Contains("another file"));
+}
+
+TEST_CASE("What has never been written is no number, or number -1, whatever the file would fill in") {
+  const Place place;
+  const auto path = place.path / "table.h5";
+  {
+    Hdf5File file(path, Hdf5File::Access::create);
+    const std::array<double, 4> row{1, 2, 3, 4};
+    const std::array<std::int64_t, 2> number{7, 8};
+    file.dataset("/t", {.extent = {3, 6}, .chunk = {1, 2}, .fill = 5});
+    file.write("/t", {{0, 0}, {1, 4}}, row.data());
+    file.write("/t", {{2, 1}, {1, 1}}, row.data());
+    file.dataset("/i", {.number = Hdf5File::Number::integer, .extent = {4}, .chunk = {2}, .fill = 5});
+    file.write("/i", {{2}, {2}}, number.data());
+    file.close();
+  }
+  const Hdf5File file(path, Hdf5File::Access::read);
+  std::vector<double> values(15);
+  file.read("/t", {{0, 1}, {3, 5}}, values.data());
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  // of the chunk that was written in part the rest is the file's own 5, which is there
+  const std::vector<double> expected{2,    3,    4, none, none, none, none, none,
+                                     none, none, 1, none, none, none, none};
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    CAPTURE(k);
+    CHECK((values[k] == expected[k] || (std::isnan(values[k]) && std::isnan(expected[k]))));
+  }
+  std::vector<std::int64_t> numbers(4);
+  file.read("/i", {{0}, {4}}, numbers.data());
+  CHECK(numbers == std::vector<std::int64_t>{-1, -1, 7, 8});
+}
+
+TEST_CASE("The parts of a box that are there make it up, each chunk asked once") {
+  const TableBox box{{3, 1, 0}, {5, 7, 4}};
+  const Extent chunk{2, 3, 5};
+  for (unsigned seed : {1u, 5u, 11u}) {
+    int asked = 0;
+    const auto there = [&](const Extent& place) {
+      return (place[0] * 5 + place[1] * 3 + place[2] + seed) % seed != 1;
+    };
+    const auto parts = parts_there(box, chunk, [&](const Extent& place) { return ++asked, there(place); });
+    CHECK(asked == 3 * 3);  // rows 3 to 7 lie in chunks 1 to 3, columns 1 to 7 in 0 to 2
+    std::vector<int> covered(8 * 8 * 4);
+    const auto at = [&](std::uint64_t i, std::uint64_t j, std::uint64_t k) -> int& {
+      return covered[(i * 8 + j) * 4 + k];
+    };
+    for (const TableBox& part : parts)
+      for (std::uint64_t i = 0; i < part.size[0]; ++i)
+        for (std::uint64_t j = 0; j < part.size[1]; ++j)
+          for (std::uint64_t k = 0; k < part.size[2]; ++k)
+            ++at(part.first[0] + i, part.first[1] + j, part.first[2] + k);
+    for (std::uint64_t i = 0; i < 8; ++i)
+      for (std::uint64_t j = 0; j < 8; ++j)
+        for (std::uint64_t k = 0; k < 4; ++k)
+          CHECK(at(i, j, k) == (i >= 3 && j >= 1 && there({i / 2, j / 3, 0}) ? 1 : 0));
+  }
+  CHECK(parts_there(box, chunk, [](const Extent&) { return true; }) == std::vector{box});
+}
+
+TEST_CASE("The length of a chunk is that after its filters are undone, the last one first") {
+  using enum ChunkFilter;
+  const std::string eight{eight_zeros_deflated}, sums = "sums";
+  const auto length = [](const std::string& bytes, const std::vector<ChunkFilter>& filters,
+                         unsigned skipped = 0) { return unfiltered_length(bytes, filters, skipped, 8); };
+  CHECK(inflated_size(eight, 8) == 8u);
+  CHECK(inflated_size(eight, 7) == std::nullopt);
+  CHECK(inflated_size(eight.substr(0, 10), 8) == std::nullopt);
+  CHECK(length(eight, {shuffle, deflate}) == 8u);
+  CHECK(length(eight + "behind its end", {deflate}) == 8u);
+  CHECK(length(eight + sums, {shuffle, deflate, fletcher32}) == 8u);
+  CHECK(length(eight, {fletcher32, deflate}) == 4u);
+  CHECK(length("12345678", {deflate}, 1) == 8u);
+  CHECK(length("123456789", {deflate}, 1) == std::nullopt);
+  CHECK(length("123", {fletcher32}) == std::nullopt);  // HDF5 would take four bytes from three
+  CHECK(length(eight, {deflate, shuffle}) == std::nullopt);
+}
