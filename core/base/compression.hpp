@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace treejet {
@@ -10,8 +11,8 @@ namespace treejet {
 /// CRC-32 of bytes that follow others, whose checksum is `before`.
 std::uint64_t crc32(std::string_view bytes, std::uint64_t before = 0);
 
-/// How many bytes a zlib stream holds, without keeping them; what follows its end is not looked at. None if
-/// it is damaged, cut short or holds more than `most`.
-std::optional<std::uint64_t> inflated_size(std::string_view stream, std::uint64_t most);
+/// What a zlib stream holds; behind its end there may be anything. None if it is damaged, cut short or holds
+/// more than `most` bytes, for which no room is made before they come.
+std::optional<std::string> inflated(std::string_view stream, std::uint64_t most);
 
 }  // namespace treejet

@@ -6,60 +6,88 @@
 
 namespace treejet {
 
-std::optional<std::uint64_t> unfiltered_length(std::string_view bytes, std::span<const ChunkFilter> filters,
-                                               unsigned skipped, std::uint64_t most) {
-  constexpr std::uint64_t fletcher = 4;
-  std::uint64_t length = bytes.size();
-  bool as_stored = true;
+namespace {
+
+/// What is left over of the last element stands at the end.
+std::string unshuffled(const std::string& bytes, std::uint64_t width) {
+  const std::uint64_t elements = bytes.size() / width;
+  std::string whole = bytes;
+  for (std::uint64_t k = 0; k < width; ++k) {
+    const char* from = bytes.data() + k * elements;
+    for (std::uint64_t i = 0; i < elements; ++i) whole[i * width + k] = from[i];
+  }
+  return whole;
+}
+
+/// Fletcher's sums of numbers of two bytes, the first byte the high one, modulo 65535.
+std::uint32_t fletcher32(std::string_view bytes) {
+  const auto byte = [&](std::size_t k) {
+    return k < bytes.size() ? std::uint32_t(static_cast<unsigned char>(bytes[k])) : 0u;
+  };
+  std::uint32_t sum = 0, sum_of_sums = 0;
+  for (std::size_t k = 0; k < bytes.size(); k += 2) {
+    sum = (sum + (byte(k) << 8 | byte(k + 1))) % 65535;
+    sum_of_sums = (sum_of_sums + sum) % 65535;
+  }
+  return sum_of_sums << 16 | sum;
+}
+
+/// Takes the checksum off; false if it is another one.
+bool without_checksum(std::string& bytes) {
+  constexpr std::size_t sums = 4;
+  if (bytes.size() < sums) return false;
+  std::uint32_t found = 0;
+  for (std::size_t k = 0; k < sums; ++k)
+    found |= std::uint32_t(static_cast<unsigned char>(bytes[bytes.size() - sums + k])) << 8 * k;
+  bytes.resize(bytes.size() - sums);
+  const std::uint32_t expected = fletcher32(bytes);
+  // 0 and 65535 are the same remainder, and either may have been written
+  return found % 65536 % 65535 == expected % 65536 && (found >> 16) % 65535 == expected >> 16;
+}
+
+}  // namespace
+
+std::optional<std::string> unfiltered(std::string bytes, std::span<const ChunkFilter> filters,
+                                      unsigned skipped, std::uint64_t length) {
+  constexpr std::uint64_t checksums = 4 * 32;  // of as many filters as there may be
   for (std::size_t k = filters.size(); k-- > 0;) {
     if ((skipped >> k & 1) != 0) continue;
-    switch (filters[k]) {
-      case ChunkFilter::fletcher32:
-        if (length < fletcher) return {};
-        length -= fletcher;
+    switch (filters[k].kind) {
+      case ChunkFilter::Kind::fletcher32:
+        if (!without_checksum(bytes)) return {};
         break;
-      case ChunkFilter::deflate: {
-        if (!as_stored) return {};
-        const auto inflated = inflated_size(bytes.substr(0, length), most + fletcher);
-        if (!inflated) return {};
-        length = *inflated;
-        as_stored = false;
+      case ChunkFilter::Kind::deflate: {
+        auto whole = inflated(bytes, length + checksums);
+        if (!whole) return {};
+        bytes = *std::move(whole);
         break;
       }
-      case ChunkFilter::shuffle:
-        as_stored = false;
+      case ChunkFilter::Kind::shuffle:
+        if (filters[k].width == 0) return {};
+        if (filters[k].width <= bytes.size()) bytes = unshuffled(bytes, filters[k].width);
         break;
     }
   }
-  if (length > most) return {};
-  return length;
+  if (bytes.size() != length) return {};
+  return bytes;
+}
+
+TableBox chunks_touched_by(const TableBox& box, const Extent& chunk) {
+  TableBox grid = box;
+  for (std::size_t k = 0; k < chunk.size(); ++k) {
+    grid.first[k] = box.first[k] / chunk[k];
+    if (box.size[k] > 0) grid.size[k] = (box.first[k] + box.size[k] - 1) / chunk[k] - grid.first[k] + 1;
+  }
+  return grid;
 }
 
 namespace {
-
-/// Calls `act` with each place in a box, in the order of rows.
-template <class Act>
-void for_each_place(const TableBox& box, Act act) {
-  if (std::find(box.size.begin(), box.size.end(), 0) != box.size.end()) return;
-  Extent place = box.first;
-  for (std::size_t k = place.size(); k > 0;) {
-    act(place);
-    for (k = place.size(); k > 0; --k) {
-      if (++place[k - 1] < box.first[k - 1] + box.size[k - 1]) break;
-      place[k - 1] = box.first[k - 1];
-    }
-  }
-}
 
 /// The chunks that a box touches, and of which of them there is something.
 class Presence {
  public:
   Presence(const TableBox& box, const Extent& chunk, const std::function<bool(const Extent&)>& there)
-      : box_(box), chunk_(chunk), grid_(box) {
-    for (std::size_t k = 0; k < chunk.size(); ++k) {
-      grid_.first[k] = box.first[k] / chunk[k];
-      if (box.size[k] > 0) grid_.size[k] = (box.first[k] + box.size[k] - 1) / chunk[k] - grid_.first[k] + 1;
-    }
+      : box_(box), chunk_(chunk), grid_(chunks_touched_by(box, chunk)) {
     for_each_place(grid_, [&](const Extent& place) { there_.push_back(there(place)); });
   }
 

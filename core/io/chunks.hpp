@@ -3,11 +3,13 @@
 /// what of a table is there at all. Nothing here knows HDF5, which takes on trust that a chunk is as long as
 /// its extent says: core/io/hdf5_file.hpp asks here first.
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
-#include <string_view>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace treejet {
@@ -20,17 +22,59 @@ struct TableBox {
   bool operator==(const TableBox&) const = default;
 };
 
-/// In the order in which they are applied; shuffle keeps the length, fletcher32 appends four bytes.
-enum class ChunkFilter { shuffle, deflate, fletcher32 };
+/// What is done to the bytes of a chunk before they are written: to bring together the first bytes of all
+/// elements of `width`, then the second ones, and so on; to deflate; to append a checksum of four bytes.
+struct ChunkFilter {
+  enum class Kind { shuffle, deflate, fletcher32 } kind;
+  std::uint64_t width = 1;
+};
 
-/// How long a chunk is once its filters, without those that `skipped` has a bit for, are undone. None if they
-/// cannot be, if it would be longer than `most`, or if a filter before deflate has to be undone behind it.
-std::optional<std::uint64_t> unfiltered_length(std::string_view bytes, std::span<const ChunkFilter> filters,
-                                               unsigned skipped, std::uint64_t most);
+/// A chunk of `length` bytes before the filters were applied one by one, without those that `skipped` has a
+/// bit for. None if its bytes are not that.
+std::optional<std::string> unfiltered(std::string bytes, std::span<const ChunkFilter> filters,
+                                      unsigned skipped, std::uint64_t length);
 
 /// The parts of a box that lie in chunks of which `there` is true, in few pieces. It is asked once of each
 /// chunk that the box touches, by the chunk's place among chunks.
 std::vector<TableBox> parts_there(const TableBox& box, const Extent& chunk,
                                   const std::function<bool(const Extent& place)>& there);
+
+/// The chunks that a box touches, by their place among chunks.
+TableBox chunks_touched_by(const TableBox& box, const Extent& chunk);
+
+/// Calls `act` with each place in a box, in the order of rows.
+template <class Act>
+void for_each_place(const TableBox& box, Act act) {
+  if (std::find(box.size.begin(), box.size.end(), 0) != box.size.end()) return;
+  Extent place = box.first;
+  for (std::size_t k = place.size(); k > 0;) {
+    act(place);
+    for (k = place.size(); k > 0; --k) {
+      if (++place[k - 1] < box.first[k - 1] + box.size[k - 1]) break;
+      place[k - 1] = box.first[k - 1];
+    }
+  }
+}
+
+/// Copies the values that two boxes share from the table of the one to that of the other.
+template <class T>
+void copy_shared(const TableBox& from_box, const T* from, const TableBox& to_box, T* to) {
+  TableBox shared = from_box;
+  for (std::size_t k = 0; k < shared.first.size(); ++k) {
+    shared.first[k] = std::max(from_box.first[k], to_box.first[k]);
+    const std::uint64_t end =
+        std::min(from_box.first[k] + from_box.size[k], to_box.first[k] + to_box.size[k]);
+    shared.size[k] = end - std::min(end, shared.first[k]);
+  }
+  const std::uint64_t row = std::exchange(shared.size.back(), std::min<std::uint64_t>(shared.size.back(), 1));
+  const auto index = [](const TableBox& box, const Extent& place) {
+    std::uint64_t at = 0;
+    for (std::size_t k = 0; k < place.size(); ++k) at = at * box.size[k] + place[k] - box.first[k];
+    return at;
+  };
+  for_each_place(shared, [&](const Extent& place) {
+    std::copy_n(from + index(from_box, place), row, to + index(to_box, place));
+  });
+}
 
 }  // namespace treejet

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -170,18 +171,18 @@ std::vector<ChunkFilter> filters_of(hid_t content, const std::filesystem::path& 
   std::vector<ChunkFilter> filters;
   const int count = Checker(path, object)(H5Pget_nfilters(content), "cannot be read");
   for (unsigned k = 0; k < static_cast<unsigned>(count); ++k) {
-    unsigned flags = 0;
-    std::size_t none = 0;
-    const H5Z_filter_t filter = H5Pget_filter2(content, k, &flags, &none, nullptr, 0, nullptr, nullptr);
-    switch (filter) {
+    unsigned flags = 0, width = 0;
+    std::size_t numbers = 1;
+    using Kind = ChunkFilter::Kind;
+    switch (H5Pget_filter2(content, k, &flags, &numbers, &width, 0, nullptr, nullptr)) {
       case H5Z_FILTER_SHUFFLE:
-        filters.push_back(ChunkFilter::shuffle);
+        filters.push_back({Kind::shuffle, width});
         break;
       case H5Z_FILTER_DEFLATE:
-        filters.push_back(ChunkFilter::deflate);
+        filters.push_back({Kind::deflate});
         break;
       case H5Z_FILTER_FLETCHER32:
-        filters.push_back(ChunkFilter::fletcher32);
+        filters.push_back({Kind::fletcher32});
         break;
       default:
         refuse(path, object, "is compressed otherwise than by shuffle and deflate (gzip)");
@@ -203,6 +204,100 @@ std::vector<hsize_t> size_of(hid_t set, const Checker& check) {
   if (!now.empty()) check(H5Sget_simple_extent_dims(space, now.data(), nullptr), "cannot be read");
   return now;
 }
+
+/// A dataset whose form has been found good, read as numbers of one type.
+template <class T>
+class TableReader {
+ public:
+  TableReader(const std::filesystem::path& path, const std::string& name, hid_t set, hid_t type)
+      : path_(path), name_(name), set_(set), type_(type), check_(path, name) {}
+
+  /// In one piece, if there are no chunks.
+  void read_plain(const TableBox& box, const Extent& chunk, T* values, T absent) const {
+    std::vector<TableBox> parts = {box};
+    if (!chunk.empty())
+      parts = parts_there(box, chunk,
+                          [&](const Extent& place) { return chunk_bytes(box_of(place, chunk).first) > 0; });
+    const std::vector<hsize_t> size(box.size.begin(), box.size.end());
+    if (parts != std::vector{box}) std::fill_n(values, static_cast<std::size_t>(volume(size)), absent);
+    const Handle space(check_(H5Dget_space(set_), "cannot be read"), H5Sclose);
+    const Handle memory(
+        check_(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), "space"), H5Sclose);
+    for (const TableBox& part : parts) {
+      Extent in_memory = part.first;
+      for (std::size_t k = 0; k < in_memory.size(); ++k) in_memory[k] -= box.first[k];
+      select(space, part);
+      select(memory, {in_memory, part.size});
+      check_(H5Dread(set_, type_, memory, space, H5P_DEFAULT, values), "cannot be read");
+    }
+  }
+
+  void read_filtered(const TableBox& box, const Extent& chunk, std::span<const ChunkFilter> filters,
+                     std::uint64_t length, T* values, T absent) const {
+    const Handle stored(check_(H5Dget_type(set_), "cannot be read"), H5Tclose);
+    static_assert(sizeof(T) == sizeof(std::uint64_t), "no number that is stored is wider");
+    std::vector<T> numbers;
+    std::fill_n(values, static_cast<std::size_t>(volume({box.size.begin(), box.size.end()})), absent);
+    for_each_place(chunks_touched_by(box, chunk), [&](const Extent& place) {
+      const TableBox own = box_of(place, chunk);
+      unsigned skipped = 0;
+      const std::string bytes = filtered(own.first, skipped);
+      if (bytes.empty()) return;
+      const auto plain = unfiltered(bytes, filters, skipped, length);
+      if (!plain)
+        refuse(path_, name_,
+               fmt::format("is damaged: its chunk at {} is not {} bytes of values",
+                           fmt::join(own.first, ", "), length));
+      numbers.resize(length / H5Tget_size(stored));
+      std::memcpy(numbers.data(), plain->data(), length);
+      check_(H5Tconvert(stored, type_, numbers.size(), numbers.data(), nullptr, H5P_DEFAULT),
+             "cannot be read");
+      copy_shared(own, numbers.data(), box, values);
+    });
+  }
+
+ private:
+  static TableBox box_of(const Extent& place, const Extent& chunk) {
+    Extent first = place;
+    for (std::size_t k = 0; k < first.size(); ++k) first[k] *= chunk[k];
+    return {first, chunk};
+  }
+
+  void select(hid_t space, const TableBox& part) const {
+    const std::vector<hsize_t> first(part.first.begin(), part.first.end()),
+        size(part.size.begin(), part.size.end());
+    check_(H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, size.data(), nullptr),
+           "selection");
+  }
+
+  /// 0 if the chunk is not there.
+  hsize_t chunk_bytes(const Extent& first) const {
+    const std::vector<hsize_t> at(first.begin(), first.end());
+    hsize_t bytes = 0;
+    if (H5Dget_chunk_storage_size(set_, at.data(), &bytes) < 0 &&
+        reason() != "chunk storage is not allocated")
+      check_(-1, "cannot be read");
+    return bytes;
+  }
+
+  /// As it is in the file, and which filters it has not been through; empty if it is not there.
+  std::string filtered(const Extent& first, unsigned& skipped) const {
+    const hsize_t length = chunk_bytes(first);
+    if (length == 0) return {};
+    std::error_code error;
+    if (length > std::filesystem::file_size(path_, error))
+      refuse(path_, name_, "is damaged: a chunk is longer than the file");
+    std::string bytes(length, '\0');
+    const std::vector<hsize_t> at(first.begin(), first.end());
+    check_(H5Dread_chunk(set_, H5P_DEFAULT, at.data(), &skipped, bytes.data()), "cannot be read");
+    return bytes;
+  }
+
+  const std::filesystem::path& path_;
+  const std::string& name_;
+  hid_t set_, type_;
+  Checker check_;
+};
 
 /// The size of the one text of fixed length that is there, of `stored` bytes in the file.
 std::size_t text_size(hid_t type, hid_t space, hsize_t stored, const std::filesystem::path& path,
@@ -372,7 +467,7 @@ Hdf5File::Id Hdf5File::open(const std::string& dataset) const {
   return set.release();
 }
 
-Hdf5File::Stored& Hdf5File::stored(const std::string& dataset, Id set) const {
+const Hdf5File::Stored& Hdf5File::stored(const std::string& dataset, Id set) const {
   if (const auto known = stored_.find(dataset); known != stored_.end()) return known->second;
   const Checker check(path_, dataset);
   const Handle type(check(H5Dget_type(set), "cannot be read"), H5Tclose),
@@ -390,46 +485,14 @@ Hdf5File::Stored& Hdf5File::stored(const std::string& dataset, Id set) const {
     const double bytes = volume(chunk) * value_bytes;
     if (!(bytes > 0 && bytes <= std::numeric_limits<std::uint32_t>::max()))
       refuse(path_, dataset, "has chunks of a size that HDF5 cannot have made");
-    found = {{chunk.begin(), chunk.end()},
-             filters_of(content, path_, dataset),
-             static_cast<std::uint64_t>(bytes),
-             {}};
+    found = {
+        {chunk.begin(), chunk.end()}, filters_of(content, path_, dataset), static_cast<std::uint64_t>(bytes)};
   } else if (const hsize_t bytes = H5Dget_storage_size(set);
              volume(size) * value_bytes > static_cast<double>(bytes)) {
     refuse(path_, dataset,
            fmt::format("claims {} values, but {} bytes are stored", fmt::join(size, " x "), bytes));
   }
   return stored_.emplace(dataset, std::move(found)).first->second;
-}
-
-/// Whether the chunk is in the file; refused if it is longer or shorter than its extent.
-bool Hdf5File::has_sound_chunk(const std::string& dataset, Id set, const Extent& place) const {
-  const Checker check(path_, dataset);
-  const Stored& form = stored_.at(dataset);
-  std::vector<hsize_t> first(place.begin(), place.end());
-  for (std::size_t k = 0; k < first.size(); ++k) first[k] *= form.chunk[k];
-  hsize_t bytes = 0, of_file = 0;
-  if (H5Dget_chunk_storage_size(set, first.data(), &bytes) < 0) {
-    if (reason() == "chunk storage is not allocated") return false;
-    check(-1, "cannot be read");
-  }
-  if (bytes == 0) return false;
-  const auto damaged = [&] {
-    refuse(path_, dataset,
-           fmt::format("is damaged: its chunk at {} is not of {} bytes", fmt::join(first, ", "),
-                       form.chunk_bytes));
-  };
-  if (form.filters.empty()) {
-    if (bytes != form.chunk_bytes) damaged();
-    return true;
-  }
-  check(H5Fget_filesize(file_, &of_file), "cannot be read");
-  if (bytes > of_file) damaged();
-  std::string text(bytes, '\0');
-  std::uint32_t skipped = 0;
-  check(H5Dread_chunk(set, H5P_DEFAULT, first.data(), &skipped, text.data()), "cannot be read");
-  if (unfiltered_length(text, form.filters, skipped, form.chunk_bytes) != form.chunk_bytes) damaged();
-  return true;
 }
 
 Extent Hdf5File::extent(const std::string& dataset) const {
@@ -488,35 +551,13 @@ void Hdf5File::write(const std::string& dataset, const Box& box, Id type, const 
 
 template <class T>
 void Hdf5File::read(const std::string& dataset, const Box& box, Id type, T* values, T absent) const {
-  const Checker check(path_, dataset);
-  const std::vector<hsize_t> size(box.size.begin(), box.size.end());
   const Handle set(open(dataset), H5Dclose);
-  const Handle file(check(H5Dget_space(set), "cannot be opened"), H5Sclose);
-  const Handle memory(check(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), "space"),
-                      H5Sclose);
-  Stored& form = stored(dataset, set);
-  std::vector<Box> parts = {box};
-  if (!form.chunk.empty()) {
-    std::set<Extent> sound;
-    parts = parts_there(box, form.chunk, [&](const Extent& place) {
-      if (!form.sound.contains(place) && !has_sound_chunk(dataset, set, place)) return false;
-      sound.insert(place);
-      return true;
-    });
-    form.sound = std::move(sound);
-  }
-  if (parts != std::vector{box}) std::fill_n(values, static_cast<std::size_t>(volume(size)), absent);
-  for (const Box& part : parts) {
-    const std::vector<hsize_t> first(part.first.begin(), part.first.end()),
-        part_size(part.size.begin(), part.size.end());
-    std::vector<hsize_t> in_memory(first);
-    for (std::size_t k = 0; k < first.size(); ++k) in_memory[k] -= box.first[k];
-    check(H5Sselect_hyperslab(file, H5S_SELECT_SET, first.data(), nullptr, part_size.data(), nullptr),
-          "selection");
-    check(H5Sselect_hyperslab(memory, H5S_SELECT_SET, in_memory.data(), nullptr, part_size.data(), nullptr),
-          "selection");
-    check(H5Dread(set, type, memory, file, H5P_DEFAULT, values), "cannot be read");
-  }
+  const Stored& form = stored(dataset, set);
+  const TableReader<T> reader(path_, dataset, set, type);
+  if (form.filters.empty())
+    reader.read_plain(box, form.chunk, values, absent);
+  else
+    reader.read_filtered(box, form.chunk, form.filters, form.chunk_bytes, values, absent);
 }
 
 void Hdf5File::write(const std::string& dataset, const Box& box, const double* values) {

@@ -8,10 +8,10 @@
 /// that would lock out readers after a death of the program. They are consistent once closed, not before:
 /// core/io/h5md_trajectory.hpp says how a run lives with that.
 ///
-/// What is read is first looked at, as HDF5 1.10 reads beyond its own memory where a file claims more than it
-/// holds: the header of a dataset before it is opened (core/io/object_header.hpp), its type, layout and
-/// filters, and of each chunk that is read the length once its filters are undone (core/io/chunks.hpp).
-/// Values of chunks that are not there are NaN or -1, whatever the file names as its fill value.
+/// HDF5 1.10 reads beyond its own memory where a file claims more than it holds. So the header of a dataset
+/// is looked at before it is opened (core/io/object_header.hpp), then its type, layout and filters; chunks
+/// that have been through filters are taken as they are and undone here (core/io/chunks.hpp), others are read
+/// by their extent. Values of chunks that are not there are NaN or -1, whatever the file would fill in.
 ///
 /// Errors are FileErrors that name file and object, with the reason of the system if there is one. HDF5's own
 /// C interface and not its C++ one, which has no gain to show for a second library; HighFive is not in
@@ -20,7 +20,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -82,15 +81,13 @@ class Hdf5File {
     Extent chunk;  ///< none if they lie in one piece
     std::vector<ChunkFilter> filters;
     std::uint64_t chunk_bytes = 0;
-    std::set<Extent> sound;  ///< chunks of the last box that was read, by their place among chunks
   };
 
-  Stored& stored(const std::string& dataset, Id set) const;
-  bool has_sound_chunk(const std::string& dataset, Id set, const Extent& place) const;
+  Id open(const std::string& dataset) const;
+  const Stored& stored(const std::string& dataset, Id set) const;
   void write(const std::string& dataset, const Box& box, Id type, const void* values);
   template <class T>
   void read(const std::string& dataset, const Box& box, Id type, T* values, T absent) const;
-  Id open(const std::string& dataset) const;
 
   std::filesystem::path path_;
   Access access_;

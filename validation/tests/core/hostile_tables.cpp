@@ -66,7 +66,7 @@ TEST_CASE("A chunk that inflates to less than its extent, or to more, is refused
   const std::string whole = file_of_a_table(path, true);
   REQUIRE(table_in(path, whole)[n - 1] == std::sin(double(n - 1)));
   CHECK_THROWS_WITH(table_in(path, patched(whole, deflated, 0, eight_zeros_deflated)),
-                    Contains("its chunk at 0 is not of 512 bytes"));
+                    Contains("its chunk at 0 is not 512 bytes"));
   // five thousand zeros
   const auto more = text(
       "\x78\x01\xed\xd0\x31\x01\0\0\0\xc2\xa0\xf5\x4f\x6d\x0a\x3f\x88\x40\x61\xc0\x80\x01\x03\x06\x0c\x18\x30"
@@ -192,20 +192,43 @@ TEST_CASE("The parts of a box that are there make it up, each chunk asked once")
   CHECK(parts_there(box, chunk, [](const Extent&) { return true; }) == std::vector{box});
 }
 
-TEST_CASE("The length of a chunk is that after its filters are undone, the last one first") {
-  using enum ChunkFilter;
-  const std::string eight{eight_zeros_deflated}, sums = "sums";
-  const auto length = [](const std::string& bytes, const std::vector<ChunkFilter>& filters,
-                         unsigned skipped = 0) { return unfiltered_length(bytes, filters, skipped, 8); };
-  CHECK(inflated_size(eight, 8) == 8u);
-  CHECK(inflated_size(eight, 7) == std::nullopt);
-  CHECK(inflated_size(eight.substr(0, 10), 8) == std::nullopt);
-  CHECK(length(eight, {shuffle, deflate}) == 8u);
-  CHECK(length(eight + "behind its end", {deflate}) == 8u);
-  CHECK(length(eight + sums, {shuffle, deflate, fletcher32}) == 8u);
-  CHECK(length(eight, {fletcher32, deflate}) == 4u);
-  CHECK(length("12345678", {deflate}, 1) == 8u);
-  CHECK(length("123456789", {deflate}, 1) == std::nullopt);
-  CHECK(length("123", {fletcher32}) == std::nullopt);  // HDF5 would take four bytes from three
-  CHECK(length(eight, {deflate, shuffle}) == std::nullopt);
+TEST_CASE(
+    "The filters of a chunk are undone the last one first, and what is not its length or its sum is none") {
+  constexpr ChunkFilter deflate{ChunkFilter::Kind::deflate}, sum{ChunkFilter::Kind::fletcher32},
+      pairs{ChunkFilter::Kind::shuffle, 2};
+  const std::string eight{eight_zeros_deflated}, zeros(8, '\0');
+  const auto plain = [](const std::string& bytes, const std::vector<ChunkFilter>& filters,
+                        unsigned skipped = 0,
+                        std::uint64_t length = 8) { return unfiltered(bytes, filters, skipped, length); };
+  CHECK(inflated(eight, 8) == zeros);
+  CHECK_FALSE(inflated(eight, 7));
+  CHECK_FALSE(inflated(eight.substr(0, 10), 8));
+  CHECK(plain(eight, {pairs, deflate}) == zeros);
+  CHECK(plain(eight + "behind its end", {deflate}) == zeros);
+  CHECK(plain("acegbdfh", {pairs}) == "abcdefgh");
+  CHECK(plain("acebdf7", {pairs}, 0, 7) == "abcdef7");
+  CHECK(plain("abcdefgh", {deflate}, 1) == "abcdefgh");
+  CHECK_FALSE(plain("abcdefghi", {deflate}, 1));
+  CHECK_FALSE(plain("abcdefgh", {{ChunkFilter::Kind::shuffle, 0}}));
+  // 0x6162 + 0x6364 + 0x6500, and 3 * 0x6162 + 2 * 0x6364 + 0x6500, both modulo 65535
+  const std::string with_sum = "abcde\xc7\x29\xf0\x4f";
+  CHECK(plain(with_sum, {sum}, 0, 5) == "abcde");
+  CHECK_FALSE(plain("abcdf" + with_sum.substr(5), {sum}, 0, 5));
+  CHECK_FALSE(plain("123", {sum}, 0, 0));
+}
+
+TEST_CASE("What two boxes share is copied to its place, and nothing else") {
+  const TableBox from{{2, 0, 3}, {3, 2, 4}}, to{{0, 1, 4}, {4, 3, 2}}, apart{{7, 0, 0}, {1, 1, 1}};
+  std::vector<int> source(24), copy(24, -1);
+  std::iota(source.begin(), source.end(), 0);
+  copy_shared(from, source.data(), to, copy.data());
+  for (std::uint64_t i = 0; i < 4; ++i)
+    for (std::uint64_t j = 1; j < 4; ++j)
+      for (std::uint64_t k = 4; k < 6; ++k) {
+        const bool shared = i >= 2 && j < 2;
+        CHECK(copy[(i * 3 + j - 1) * 2 + k - 4] == (shared ? int(((i - 2) * 2 + j) * 4 + k - 3) : -1));
+      }
+  const std::vector<int> before = copy;
+  copy_shared(apart, source.data(), to, copy.data());
+  CHECK(copy == before);
 }
