@@ -49,7 +49,7 @@ bool without_checksum(std::string& bytes) {
 
 std::optional<std::string> unfiltered(std::string bytes, std::span<const ChunkFilter> filters,
                                       unsigned skipped, std::uint64_t length) {
-  constexpr std::uint64_t checksums = 4 * 32;  // of as many filters as there may be
+  constexpr std::uint64_t checksum = 4, most_filters = 32;
   for (std::size_t k = filters.size(); k-- > 0;) {
     if ((skipped >> k & 1) != 0) continue;
     switch (filters[k].kind) {
@@ -57,7 +57,7 @@ std::optional<std::string> unfiltered(std::string bytes, std::span<const ChunkFi
         if (!without_checksum(bytes)) return {};
         break;
       case ChunkFilter::Kind::deflate: {
-        auto whole = inflated(bytes, length + checksums);
+        auto whole = inflated(bytes, length + most_filters * checksum);
         if (!whole) return {};
         bytes = *std::move(whole);
         break;

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/io/object_header.hpp"
 
 namespace treejet {
 
@@ -121,22 +120,23 @@ std::string without_padding(std::string text) {
   throw FileError(fmt::format("{}: {} {}", path.string(), object, why));
 }
 
-/// The address of the object that a link leads to. All of its name must be hard links: soft and external ones
-/// lead elsewhere, as far as any file that the user may read.
-std::uint64_t own_object(hid_t file, const std::filesystem::path& path, const std::string& name) {
-  H5L_info_t link;
-  for (auto end = name.find('/', 1);; end = name.find('/', end + 1)) {
-    Checker(path, name)(H5Lget_info(file, name.substr(0, end).c_str(), &link, H5P_DEFAULT), "cannot be read");
-    if (link.type != H5L_TYPE_HARD) refuse(path, name, "is a link that may lead out of the file");
-    if (end == std::string::npos) break;
-  }
-  std::uint64_t address = 0;  // a number up to HDF5 1.10, from 1.12 on its bytes in a token
+/// Of the group that all names begin at, whatever the library's version calls the record that holds it.
+template <class Record>
+std::uint64_t address_of_root(herr_t (*record_of)(hid_t, Record*, unsigned), hid_t file,
+                              const Checker& check) {
+  Record record;
+  check(record_of(file, &record, H5O_INFO_BASIC), "cannot be read");
+  return record.addr;
+}
+
+/// A number up to HDF5 1.10, from 1.12 on its bytes in a token.
+std::uint64_t address_of(const H5L_info_t& link) {
+  std::uint64_t address = 0;
   std::memcpy(&address, &link.u, sizeof address);
   return address;
 }
 
-/// Bytes in front of what the file's addresses count from.
-std::uint64_t origin_of_addresses(hid_t file, const std::filesystem::path& path) {
+HeaderPlace root_of(hid_t file, const std::filesystem::path& path) {
   const Checker check(path, "");
   const Handle form(check(H5Fget_create_plist(file), "cannot be read"), H5Pclose);
   std::size_t address = 0, length = 0;
@@ -144,7 +144,7 @@ std::uint64_t origin_of_addresses(hid_t file, const std::filesystem::path& path)
   check(H5Pget_sizes(form, &address, &length), "cannot be read");
   check(H5Pget_userblock(form, &origin), "cannot be read");
   if (address != sizeof(std::uint64_t) || length != address) refuse(path, "", "not addressed by eight bytes");
-  return origin;
+  return {origin, address_of_root(H5Oget_info2, file, check)};
 }
 
 /// A dataset opened without a cache for chunks: into one HDF5 reads as many bytes as the file says that a
@@ -446,20 +446,39 @@ void Hdf5File::word_attribute(const std::string& object, const std::string& name
   check(H5Awrite(a, type, &begin), "attribute");
 }
 
-bool Hdf5File::has(const std::string& name) const {
+/// Where an object's header is, if there is one of that name. All of its name must be hard links: soft and
+/// external ones lead elsewhere, as far as any file that the user may read.
+std::optional<HeaderPlace> Hdf5File::find(const std::string& name) const {
+  const Checker check(path_, name);
+  if (!root_) root_ = root_of(file_, path_);
+  HeaderPlace place = *root_;
+  std::string above = "/";
   for (auto end = name.find('/', 1);; end = name.find('/', end + 1)) {
-    if (H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
-    if (end == std::string::npos) return true;
+    // what is being written need not be in the file yet
+    if (access_ == Access::read && !groups_.contains(above)) check_group(path_, above, place);
+    groups_.insert(above);
+    above = name.substr(0, end);
+    if (check(H5Lexists(file_, above.c_str(), H5P_DEFAULT), "cannot be read") == 0) return {};
+    H5L_info_t link;
+    check(H5Lget_info(file_, above.c_str(), &link, H5P_DEFAULT), "cannot be read");
+    if (link.type != H5L_TYPE_HARD) refuse(path_, name, "is a link that may lead out of the file");
+    place.address = address_of(link);
+    if (end == std::string::npos) return place;
   }
+}
+
+bool Hdf5File::has(const std::string& name) const {
+  return find(name).has_value();
 }
 
 /// A dataset whose values are in this very file. External raw data are elsewhere, and Treejet writes none.
 Hdf5File::Id Hdf5File::open(const std::string& dataset) const {
   const Checker check(path_, dataset);
-  const std::uint64_t address = own_object(file_, path_, dataset);
-  // what is being written need not be in the file yet
-  if (access_ == Access::read && !stored_.contains(dataset))
-    check_layout(path_, dataset, origin_of_addresses(file_, path_) + address);
+  if (!stored_.contains(dataset)) {
+    const auto place = find(dataset);
+    if (!place) refuse(path_, dataset, "is not there");
+    if (access_ == Access::read) check_dataset(path_, dataset, *place);
+  }
   Handle set(check(opened_to_read(file_, dataset), "cannot be read"), H5Dclose);
   const Handle content(check(H5Dget_create_plist(set), "cannot be read"), H5Pclose);
   if (H5Pget_external_count(content) != 0 || H5Pget_layout(content) == H5D_VIRTUAL)
@@ -520,6 +539,7 @@ std::string Hdf5File::text(const std::string& dataset) const {
 
 std::string Hdf5File::text_attribute(const std::string& object, const std::string& name) const {
   const Checker check(path_, object);
+  if (!has(object)) refuse(path_, object, "is not there");
   const Handle a(check(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
                        "attribute cannot be read"),
                  H5Aclose);

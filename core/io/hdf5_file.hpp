@@ -20,10 +20,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "core/io/chunks.hpp"
+#include "core/io/object_header.hpp"
 
 namespace treejet {
 
@@ -83,6 +86,7 @@ class Hdf5File {
     std::uint64_t chunk_bytes = 0;
   };
 
+  std::optional<HeaderPlace> find(const std::string& name) const;
   Id open(const std::string& dataset) const;
   const Stored& stored(const std::string& dataset, Id set) const;
   void write(const std::string& dataset, const Box& box, Id type, const void* values);
@@ -92,7 +96,9 @@ class Hdf5File {
   std::filesystem::path path_;
   Access access_;
   Id file_ = -1;
-  mutable std::map<std::string, Stored> stored_;
+  mutable std::optional<HeaderPlace> root_;
+  mutable std::map<std::string, Stored> stored_;  ///< of datasets that have been found good
+  mutable std::set<std::string> groups_;          ///< that have been found good
 };
 
 /// Whether the file begins as an HDF5 file does.

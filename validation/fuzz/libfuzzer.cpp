@@ -4,9 +4,9 @@
 ///     build/fuzz/fuzz-checkpoint --seeds build/fuzz/seeds
 ///     build/fuzz/fuzz-checkpoint -timeout=10 -malloc_limit_mb=256 -max_total_time=600 build/fuzz/seeds
 ///
-/// HDF5 loses memory over damaged files, and asks for too much (-detect_leaks=0,
-/// ASAN_OPTIONS=allocator_may_return_null=1). --seeds DIR writes the seeds, --dictionary prints
-/// what decks may hold, for libFuzzer's -dict. An input that was found is run again by giving its file
+/// HDF5 loses memory over damaged files, and asks for too much: -detect_leaks=0, at the end of the program
+/// ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1, too. --seeds DIR writes the seeds, --dictionary
+/// prints what decks may hold, for libFuzzer's -dict. An input that was found is run again by giving its file
 /// instead of the directory.
 
 #include <fmt/format.h>

@@ -108,7 +108,7 @@ TEST_CASE("Chunks of no extent, or of more or fewer extents than their table has
   };
   CHECK_THROWS_WITH(table_in(path, with(0, text("\0"))), Contains("chunks without extent"));
   CHECK_THROWS_WITH(table_in(path, with(4, text("\0"))), Contains("chunks without extent"));
-  CHECK_THROWS_WITH(table_in(path, with(-9, "\1")), Contains("its header is none"));
+  CHECK_THROWS_WITH(table_in(path, with(-9, "\1")), Contains("its header or what it leads to"));
   CHECK_THROWS_AS(table_in(path, with(-9, "\3")), FileError);
   // chunks of 2^30 and 2^31 numbers
   CHECK_THROWS_AS(table_in(path, with(0, text("\0\0\0\x40"))), FileError);
@@ -133,6 +133,23 @@ TEST_CASE("Layouts of other versions, and of other files, are refused before the
   for (const char* version : {"\1", "\2", "\4"})
     CHECK_THROWS_WITH(table_in(path, patched(whole, extents_of_chunk, -11, version)), Contains("h5repack"));
   CHECK_THROWS_WITH(table_in(path, patched(whole, extents_of_chunk, -11, "\4\3")), Contains("another file"));
+}
+
+TEST_CASE("Names and chunks whose tree or heap is nowhere, or a tree in a circle, are refused") {
+  const Place place;
+  const auto path = place.path / "table.h5";
+  const std::string whole = file_of_a_table(path, true);
+  const auto nowhere = text("\xff\xff\xff\xff\xff\xff\xff\xff");
+  constexpr std::string_view heap{"HEAP", 4}, names{"TREE\0\0\1\0", 8};
+  CHECK_THROWS_AS(table_in(path, patched(whole, heap, 24, nowhere)), FileError);
+  CHECK_THROWS_AS(table_in(path, patched(whole, names, 32, nowhere)), FileError);
+  // a node of names that leads to itself, as one of the level above the leaves
+  const std::size_t at = whole.find(names);
+  std::string circle = patched(whole, names, 5, "\1");
+  std::memcpy(circle.data() + at + 32, &at, sizeof at);
+  CHECK_THROWS_AS(table_in(path, circle), FileError);
+  // of the tree of chunks, and of the one thing behind its first key, of 24 bytes
+  CHECK_THROWS_AS(table_in(path, patched(patched(whole, tree, 24 + 24, nowhere), tree, 5, "\1")), FileError);
 }
 
 TEST_CASE("What has never been written is no number, or number -1, whatever the file would fill in") {
