@@ -22,6 +22,10 @@ Beads beads_of(const Jet<3>& jet, const Eigen::ArrayXXd& carried) {
 }
 
 void set_beads(Jet<3>& jet, const Beads& all) {
+  if (all.cols() == 0) {  // a row of no beads has no address to count from
+    jet = without_beads(jet);
+    return;
+  }
   Eigen::Index word = jet.y.cols();
   const bool ids = jet.id.size() > 0;
   jet.y = all.topRows(word).transpose();
