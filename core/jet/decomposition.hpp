@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -79,11 +80,15 @@ class Decomposition {
   /// The jet becomes what is to be here of a whole one.
   virtual void take(Jet<D>& jet, const Jet<D>& all) { jet = all; }
 
-  /// What gives the whole jet the beads it needs, the same for all who hold a subdomain; and that done.
+  /// What gives the whole jet the beads it needs, the same for all who hold a subdomain; and that done, to
+  /// other states of the same beads alike.
   virtual Refinement refinement(const Jet<D>& jet, const Spacing<D>& spacing) const {
     return spacing.refinement(jet);
   }
-  virtual void refine(Jet<D>& jet, const Refinement& refinement) { treejet::refine(jet, refinement); }
+  virtual void refine(Jet<D>& jet, const Refinement& refinement, std::span<Jet<D>> alike) {
+    treejet::refine(jet, refinement);
+    for (Jet<D>& other : alike) treejet::refine(other, refinement);
+  }
 
   /// The jet in a checkpoint: what all ranks know of it, and the records behind that.
   virtual void visit(Jet<D>& jet, Archive& state) { state(jet); }

@@ -6,10 +6,10 @@
 
 #include <limits>
 #include <stdexcept>
+#include <vector>
 
 #include "core/jet/dense_output.hpp"
 #include "core/jet/local_jacobian.hpp"
-#include "core/jet/refinement.hpp"
 
 namespace treejet {
 
@@ -63,9 +63,11 @@ class RightHandSide {
   virtual void before_removal(const Jet<D>&) {}
   virtual void after_release(const Jet<D>&) {}
 
-  /// The elements of `jet` are about to be split and merged. Returns the evaluations of the forces that it
-  /// took to learn of it.
-  virtual std::int64_t before_refinement(const Jet<D>&, const Refinement&) { return 0; }
+  /// The elements of `jet` are about to be split and merged: the states of its past that a motion remembers,
+  /// to be refined alike.
+  virtual std::vector<Jet<D>> past(const Jet<D>&) { return {}; }
+  /// They have been. Returns the evaluations of the forces that it took to learn of it.
+  virtual std::int64_t after_refinement(const Jet<D>&, std::vector<Jet<D>> /*past*/) { return 0; }
 
   /// What a motion remembers from one evaluation to the next.
   virtual void visit(Archive&) {}

@@ -116,22 +116,72 @@ std::vector<Index> Spacing<D>::to_split(const Jet<D>& jet) const {
   return found;
 }
 
+/// Beads at which two elements might be merged, but for their neighbours' merging.
 template <int D>
-std::vector<Index> Spacing<D>::to_merge(const Jet<D>& jet) const {
+std::vector<Index> Spacing<D>::that_might_merge(const Jet<D>& jet) const {
   const Elements e = elements(jet);
   std::vector<Index> found;
   for (Index k = 1; k + left_alone < jet.size(); ++k) {
     const Index i = k - 1;
     const double V = e.volume[i] + e.volume[k];
     const double below = i > 0 ? e.volume[i - 1] : beyond_oldest(jet), above = e.volume[k + 1];
-    const bool taken = !found.empty() && found.back() + 1 == k;
     const bool alike = std::abs(e.volume[i] - e.volume[k]) <= round_off * V;
     const double smaller = below > 0 ? std::min(below, above) : above;
     const bool graded = V <= 2 * smaller * (1 + round_off);
     const bool fine =
         e.length[i] + e.length[k] < longest_ / 2 && std::max(e.turn[i], e.turn[k]) < most_turn_ / 4;
-    if (!taken && alike && graded && fine && V <= 1 + round_off) found.push_back(k);
+    if (alike && graded && fine && V <= 1 + round_off) found.push_back(k);
   }
+  return found;
+}
+
+/// Of those next to each other every other one, from the oldest on.
+template <int D>
+std::vector<Index> Spacing<D>::to_merge(const Jet<D>& jet) const {
+  std::vector<Index> found;
+  for (const Index k : that_might_merge(jet))
+    if (found.empty() || found.back() + 1 < k) found.push_back(k);
+  return found;
+}
+
+namespace {
+
+/// Whether volumes rise from element to element all the way from the end of a part, so that the elements of
+/// `rows` may have to be split for one that is beyond it.
+template <int D>
+bool rise_from_outside(const Jet<D>& part, std::pair<Index, Index> rows) {
+  const auto rises = [&](Index from, Index to) {
+    return part.volume[to] > part.volume[from] * (1 + round_off);
+  };
+  bool older = !part.from_oldest, younger = !part.to_youngest;
+  for (Index i = 0; i < rows.first; ++i) older = older && rises(i, i + 1);
+  for (Index i = rows.second; i + left_alone <= part.size(); ++i) younger = younger && rises(i, i - 1);
+  return older || younger;
+}
+
+}  // namespace
+
+/// Which of the beads next to each other merge is told by where they begin.
+template <int D>
+bool Spacing<D>::merges_tell(const Jet<D>& part, Index first) const {
+  if (part.from_oldest) return true;
+  const std::vector<Index> might = that_might_merge(part);
+  for (Index k = 2; k < first; ++k)
+    if (!std::binary_search(might.begin(), might.end(), k)) return true;
+  return false;
+}
+
+/// An element is judged by two beads on either side of it, a bead by as many, and as the nozzle's rule leaves
+/// the youngest elements alone, so it seems to of those at the end of a part.
+template <int D>
+std::optional<std::vector<Index>> Spacing<D>::asking(Kind kind, const Jet<D>& part,
+                                                     std::pair<Index, Index> rows) const {
+  const bool seen =
+      (part.from_oldest || rows.first >= 2) && (part.to_youngest || rows.second + left_alone <= part.size());
+  if (!seen || (kind == Kind::split ? rise_from_outside(part, rows) : !merges_tell(part, rows.first)))
+    return {};
+  std::vector<Index> found = kind == Kind::split ? to_split(part) : to_merge(part);
+  std::erase_if(found, [&](Index row) { return row < rows.first || row >= rows.second; });
   return found;
 }
 
@@ -141,22 +191,25 @@ bool Spacing<D>::content(const Jet<D>& part) const {
 }
 
 template <int D>
-Refinement Spacing<D>::refinement(const Jet<D>& jet) const {
+Refinement Spacing<D>::refinement(const std::function<std::vector<Index>(Kind)>& asking,
+                                  const std::function<void(const RefinementPass&)>& refine) const {
   constexpr int most_passes = 30;  // each halves: more are not needed by any jet that is still finite
   Refinement all;
-  Jet<D> trial = jet;
-  using Kind = RefinementPass::Kind;
-  const auto settle = [&](Kind kind, auto found) {
+  for (const Kind kind : {Kind::split, Kind::merge})
     for (int pass = 0; pass < most_passes; ++pass) {
-      RefinementPass next{kind, (this->*found)(trial), of_beads_};
-      if (next.rows.empty()) return;
-      refine(trial, next);
+      RefinementPass next{kind, asking(kind), of_beads_};
+      if (next.rows.empty()) break;
+      refine(next);
       all.push_back(std::move(next));
     }
-  };
-  settle(Kind::split, &Spacing::to_split);
-  settle(Kind::merge, &Spacing::to_merge);
   return all;
+}
+
+template <int D>
+Refinement Spacing<D>::refinement(const Jet<D>& jet) const {
+  Jet<D> trial = jet;
+  return refinement([&](Kind kind) { return kind == Kind::split ? to_split(trial) : to_merge(trial); },
+                    [&](const RefinementPass& pass) { refine(trial, pass); });
 }
 
 template class Spacing<1>;

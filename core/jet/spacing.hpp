@@ -19,7 +19,10 @@
 /// released a bead. Both times are functions of the solution, not of the steps, so a split costs no order in
 /// time. Scaled.
 
+#include <functional>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "core/jet/columns.hpp"
 #include "core/jet/parameters.hpp"
@@ -33,9 +36,19 @@ class Spacing {
   /// `added`: the columns that the scene adds to the state.
   explicit Spacing(const Parameters& p, const Columns& added = {});
 
+  using Kind = RefinementPass::Kind;
+
   /// What gives the jet the beads it needs; empty if it has them.
   Refinement refinement(const Jet<D>& jet) const;
+  /// The same of a jet that others hold: `asking` tells which elements of it a split is due to, or which
+  /// beads a merge, `refine` makes a pass.
+  Refinement refinement(const std::function<std::vector<Eigen::Index>(Kind)>& asking,
+                        const std::function<void(const RefinementPass&)>& refine) const;
 
+  /// Of a part of a jet with some beads more on either side, those of rows first <= i < second to which a
+  /// pass is due; nothing where that turns on what is beyond the part.
+  std::optional<std::vector<Eigen::Index>> asking(Kind kind, const Jet<D>& part,
+                                                  std::pair<Eigen::Index, Eigen::Index> rows) const;
   /// Whether a part of a jet, with three beads more on either side that others ask about, asks for nothing.
   bool content(const Jet<D>& part) const;
 
@@ -48,7 +61,9 @@ class Spacing {
   bool may_be_split(double length, double volume) const;
   std::vector<Eigen::Index> too_large(const Jet<D>& jet) const;
   std::vector<Eigen::Index> to_split(const Jet<D>& jet) const;
+  std::vector<Eigen::Index> that_might_merge(const Jet<D>& jet) const;
   std::vector<Eigen::Index> to_merge(const Jet<D>& jet) const;
+  bool merges_tell(const Jet<D>& part, Eigen::Index first) const;
 
   static constexpr double never = std::numeric_limits<double>::infinity();
   double longest_ = never;    ///< element

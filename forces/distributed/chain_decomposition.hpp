@@ -15,29 +15,25 @@
 /// no more than one at a time beside its own subdomain. A checkpoint may be read by any number of ranks, each
 /// of which takes the beads that are then its own; on as many as before the chain is cut as it was.
 ///
-/// Elements are split and merged as in the whole jet: whether any asks for it is seen on every rank with
-/// three beads of its neighbours; only then all beads go to all ranks, which decide and refine alike by the
-/// code of the whole, and keep their own. Each rank so holds the whole for a moment, 100 bytes a bead.
+/// Elements are split and merged as in the whole jet, each by the rank that has it, which sees a few beads of
+/// its neighbours (own_beads.hpp).
 ///
 /// Weak: what looks at neighbouring rows (integrators/march/diagnosis.hpp) takes the own beads next to a copy
 /// for its neighbours, and sees no element from one subdomain to the next.
 
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "core/jet/decomposition.hpp"
+#include "forces/distributed/bead_words.hpp"
 #include "forces/distributed/layout.hpp"
 #include "parallel/ranks.hpp"
 
 namespace treejet {
 
-/// What is constant of a bead, and travels with it.
-inline constexpr auto bead_constants = {&Jet<3>::mass, &Jet<3>::charge, &Jet<3>::volume};
-
 class ChainDecomposition final : public Decomposition<3> {
  public:
-  /// On their way, a column each: state, mass, charge, volume, id if they have one, what is carried along.
-  using Beads = Eigen::ArrayXXd;
-
   ChainDecomposition(int beads, const Ranks& ranks, Ends ends = {});
 
   /// The beads of the whole chain that the rows of this rank's jet are, by number.
@@ -86,7 +82,8 @@ class ChainDecomposition final : public Decomposition<3> {
 
   void take(Jet<3>& jet, const Jet<3>& all) override;
   Refinement refinement(const Jet<3>& jet, const Spacing<3>& spacing) const override;
-  void refine(Jet<3>& jet, const Refinement& refinement) override;
+  /// What is carried along is not: whoever has it learns of the refinement by the jets of the past.
+  void refine(Jet<3>& jet, const Refinement& refinement, std::span<Jet<3>> alike) override;
 
   void visit(Jet<3>& jet, Archive& state) override;
   std::int64_t records() const override;
@@ -99,12 +96,6 @@ class ChainDecomposition final : public Decomposition<3> {
   void cut(int beads);
   bool out_of_balance() const;
   void arrange(Jet<3>& jet, const Layout& had);
-  using Wanted = std::function<std::vector<Stretch>(int rank)>;
-  Beads wanted_beads(const Beads& beads, const Layout& had, const Wanted& wanted) const;
-  Jet<3> part(const Jet<3>& jet, int beyond) const;
-  Eigen::ArrayXXd gathered(const Eigen::Ref<const Eigen::ArrayXXd>& table) const;
-  Jet<3> undivided(const Jet<3>& jet) const;
-  void take_rows(Jet<3>& jet, const Jet<3>& all) const;
   void recut_if_due(Jet<3>& jet);
   std::string portion(const Jet<3>& jet, int rank, Stretch beads) const;
 

@@ -27,9 +27,9 @@ std::string ChainDecomposition::portion(const Jet<3>& jet, int rank, Stretch bea
   if (rank == ranks_.rank()) {
     const int row = own().first + beads.first - layout_.own(rank).first, n = beads.size();
     some.jet.t = jet.t;
-    some.jet.y = jet.y.middleRows(row, n);
-    for (auto each : bead_constants) some.jet.*each = (jet.*each).segment(row, n);
-    if (jet.id.size() > 0) some.jet.id = jet.id.segment(row, n);
+    some.jet.born = jet.born;
+    set_rows(some.jet, n, jet.y.cols());
+    copy_beads(jet, jet.y, {row, row + n}, some.jet, 0);
     some.jet.removed = jet.removed + beads.first;
     if (jet.slope.rows() == jet.y.rows()) {
       some.jet.slope = jet.slope.middleRows(row, n);
@@ -61,9 +61,8 @@ void ChainDecomposition::visit(Jet<3>& jet, Archive& state) {
   cut(saved.borders.back());
   cut_as_saved_ = saved.borders.size() == layout_.borders.size();
   if (cut_as_saved_) layout_.borders = saved.borders;
-  for (auto* table : {&jet.y, &jet.slope}) table->resize(0, saved.columns);
-  for (auto each : bead_constants) (jet.*each).resize(0);
-  jet.id.resize(0);
+  set_rows(jet, 0, saved.columns);
+  jet.slope.resize(0, saved.columns);
 }
 
 std::int64_t ChainDecomposition::records() const {
@@ -89,9 +88,8 @@ void ChainDecomposition::read(Jet<3>& jet, const ReadRecords& records) {
   const std::vector<Stretch> here = layout_.here(ranks_.rank());
   const Eigen::Index n = place_of(total(), here), columns = jet.y.cols();
   Eigen::ArrayXXd carried(n, carried_(0, 0).cols());
-  for (auto* table : {&jet.y, &jet.slope}) table->resize(n, columns);
-  for (auto each : bead_constants) (jet.*each).resize(n);
-  jet.id.resize(jet.born > 0 ? n : 0);
+  set_rows(jet, n, columns);
+  jet.slope.resize(n, columns);
   Eigen::Index found = 0;
   const auto parts_here = [&](std::int64_t first, std::int64_t count) {
     std::vector<Stretch> parts;
@@ -116,11 +114,9 @@ void ChainDecomposition::read(Jet<3>& jet, const ReadRecords& records) {
     if (some.carried.cols() != carried.cols() || (carried.cols() > 0 && some.carried.rows() != record.count))
       throw FileError("the checkpoint remembers less of its beads than of the jet");
     for (const Stretch& part : parts_here(record.first, record.count)) {
-      const Eigen::Index row = place_of(part.first, here), from = part.first - record.first, m = part.size();
-      jet.y.middleRows(row, m) = some.jet.y.middleRows(from, m);
+      const int row = place_of(part.first, here), from = part.first - int(record.first), m = part.size();
+      copy_beads(some.jet, some.jet.y, {from, from + m}, jet, row);
       jet.slope.middleRows(row, m) = some.jet.slope.middleRows(from, m);
-      for (auto each : bead_constants) (jet.*each).segment(row, m) = (some.jet.*each).segment(from, m);
-      if (jet.id.size() > 0) jet.id.segment(row, m) = some.jet.id.segment(from, m);
       if (carried.cols() > 0) carried.middleRows(row, m) = some.carried.middleRows(from, m);
       found += m;
     }

@@ -33,45 +33,22 @@ void DistributedMotion::differentiate(const Jet<3>& jet, double t, const State<3
   J.subdomain = this;
 }
 
-namespace {
-
-using Record = std::vector<double>;
-
-/// What the force on the other end of an element needs of a bead: state, mass, charge, volume, id.
-Record record_of(const Jet<3>& jet, const State<3>& y, Eigen::Index row) {
-  Record record(static_cast<std::size_t>(y.cols()));
-  for (Eigen::Index k = 0; k < y.cols(); ++k) record[static_cast<std::size_t>(k)] = y(row, k);
-  for (auto each : bead_constants) record.push_back((jet.*each)[row]);
-  if (jet.id.size() > 0) record.push_back(static_cast<double>(jet.id[row]));
-  return record;
-}
-
-void take_in(const Record& record, Jet<3>& jet, Eigen::Index row) {
-  auto next = record.begin();
-  for (Eigen::Index k = 0; k < jet.y.cols(); ++k) jet.y(row, k) = *next++;
-  for (auto each : bead_constants) (jet.*each)[row] = *next++;
-  if (jet.id.size() > 0) jet.id[row] = static_cast<std::int64_t>(*next);
-}
-
-}  // namespace
-
-/// The own beads and, from the ranks next along the chain, one on either side. Into tables that stay: a
-/// subdomain of half a million beads is copied at every evaluation.
+/// The own beads and, from the ranks next along the chain, one on either side: what the force on the other
+/// end of an element needs. Into tables that stay: a subdomain of half a million beads is copied at every
+/// evaluation.
 void DistributedMotion::extend(const Jet<3>& jet, const State<3>& y) {
   const Rows own = subdomains_.own();
-  const auto [older, younger] = of_neighbours([&](Eigen::Index row) { return record_of(jet, y, row); });
+  const auto [older, younger] = of_neighbours([&](int row) {
+    const Beads bead = packed(jet, y, {row, row + 1});
+    return std::vector<double>(bead.data(), bead.data() + bead.size());
+  });
   first_ = older.empty() ? 0 : 1;
-  const Eigen::Index n = first_ + own.size() + (younger.empty() ? 0 : 1);
-  extended_.y.resize(n, y.cols());
-  extended_.y.middleRows(first_, own.size()) = y.middleRows(own.first, own.size());
-  for (auto each : bead_constants) {
-    (extended_.*each).resize(n);
-    (extended_.*each).segment(first_, own.size()) = (jet.*each).segment(own.first, own.size());
-  }
-  extended_.id.resize(jet.id.size() > 0 ? n : 0);
-  if (jet.id.size() > 0) extended_.id.segment(first_, own.size()) = jet.id.segment(own.first, own.size());
-  if (!older.empty()) take_in(older, extended_, 0);
-  if (!younger.empty()) take_in(younger, extended_, n - 1);
+  const int n = first_ + own.size() + (younger.empty() ? 0 : 1);
+  extended_.born = jet.born;
+  set_rows(extended_, n, y.cols());
+  copy_beads(jet, y, own, extended_, first_);
+  for (const auto& [bead, row] : {std::pair{&older, 0}, std::pair{&younger, n - 1}})
+    if (!bead->empty()) unpack(Eigen::Map<const Beads>(bead->data(), std::ssize(*bead), 1), extended_, row);
   extended_.removed = subdomains_.before(jet) + own.first - first_;
   extended_.from_oldest = older.empty();
   extended_.to_youngest = younger.empty();
@@ -98,7 +75,7 @@ std::array<std::vector<double>, 2> DistributedMotion::of_neighbours(const Record
 State<3> DistributedMotion::with_neighbours(const State<3>& table) const {
   using Row = Eigen::Array<double, 1, Eigen::Dynamic>;
   const Rows own = subdomains_.own();
-  const auto row = [&](Eigen::Index i) {
+  const auto row = [&](int i) {
     const Row values = table.row(i);
     return std::vector<double>(values.data(), values.data() + values.size());
   };

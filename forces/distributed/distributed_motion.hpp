@@ -66,7 +66,7 @@ class DistributedMotion final : public FullMotion<3>, private SubdomainRows<3> {
   void extend(const Jet<3>& jet, const State<3>& y);
   /// What the older and the younger neighbour say of their row next to ours, nothing where there is none;
   /// they are told the same of ours.
-  using RecordOfRow = std::function<std::vector<double>(Eigen::Index row)>;
+  using RecordOfRow = std::function<std::vector<double>(int row)>;
   std::array<std::vector<double>, 2> of_neighbours(const RecordOfRow& record) const;
   void repel(Rows own, State<3>& slope);
   void bind_youngest_field(int own);

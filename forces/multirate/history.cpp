@@ -117,6 +117,7 @@ bool History<D>::remember(PastEvaluation<D>&& now) {
     std::rotate(past_.begin(), past_.end() - 1, past_.end());
     remembered_ = std::min(remembered_ + 1, count);
   }
+  with_states_ = now.state.rows() > 0;
   past_[0] = std::move(now);
   if (!continued && continuable(beads())) {
     for (auto& m : past_) m.set_far();
@@ -176,26 +177,27 @@ void History<D>::after_release(const Jet<D>& jet, double Q, const Decomposition<
 }
 
 template <int D>
-int History<D>::before_refinement(const Jet<D>& jet, const Refinement& refinement, FullMotion<D>& full) {
-  if (remembered_ < count) {
-    forget();
-    return 0;
+std::vector<Jet<D>> History<D>::past(const Jet<D>& jet) {
+  std::vector<Jet<D>> all;
+  if (remembered_ < count) forget();
+  for (int k = 0; k < remembered_; ++k) {
+    all.push_back(at(jet, past_[k].t, past_[k].state));
+    all.back().held = false;
   }
-  Jet<D> now = jet;
-  refine(now, refinement);
+  return all;
+}
+
+template <int D>
+int History<D>::after_refinement(const Jet<D>& jet, std::vector<Jet<D>> past, FullMotion<D>& full) {
+  if (past.empty()) return 0;
   State<D> slope;
-  full(now, now.t, now.y, slope);
-  std::array<Jet<D>, count> past;
-  for (int k = 0; k < count; ++k) {
-    past[k] = at(jet, past_[k].t, past_[k].state);
-    past[k].held = false;
-    refine(past[k], refinement);
-  }
-  lead_to(now.t, slope, past);
-  for (int k = 0; k < count; ++k) {
-    full(past[k], past[k].t, past[k].y, slope);
-    past_[k] = {past[k].t, full.chain(), past[k], full.field(), slope, full.Q()};
-    past_[k].state = past[k].y;
+  full(jet, jet.t, jet.y, slope);
+  lead_to(jet.t, slope, past);
+  for (std::size_t k = 0; k < past.size(); ++k) {
+    const Jet<D>& then = past[k];
+    full(then, then.t, then.y, slope);
+    past_[k] = {then.t, full.chain(), then, full.field(), slope, full.Q()};
+    past_[k].state = then.y;
   }
   if (continuable(beads()))
     for (auto& m : past_) m.set_far();
@@ -210,8 +212,8 @@ int History<D>::before_refinement(const Jet<D>& jet, const Refinement& refinemen
 /// columns as v; u and a, of second order in the elements, are what its slope differs in from the derivative
 /// of the parabola through them.
 template <int D>
-void History<D>::lead_to(double t, State<D> slope, std::array<Jet<D>, count>& past) const {
-  for (int k = 0; k < count; ++k) {
+void History<D>::lead_to(double t, State<D> slope, std::vector<Jet<D>>& past) {
+  for (std::size_t k = 0; k < count; ++k) {
     const double a = past[(k + 1) % count].t, b = past[(k + 2) % count].t, c = past[k].t;
     slope -= (2 * t - a - b) / ((c - a) * (c - b)) * past[k].y;
   }
@@ -222,10 +224,16 @@ void History<D>::lead_to(double t, State<D> slope, std::array<Jet<D>, count>& pa
   }
 }
 
-/// Of each moment: position, charge, field, slopes.
+/// Of each moment: position, charge, field, slopes, and the state, of which a slope has all but the
+/// positions.
+template <int D>
+Eigen::Index History<D>::words_of_bead() const {
+  return 2 * D + 1 + columns() + (with_states_ ? D + columns() : 0);
+}
+
 template <int D>
 Eigen::ArrayXXd History<D>::of_beads(Eigen::Index first, Eigen::Index rows) const {
-  const Eigen::Index words = 2 * D + 1 + columns();
+  const Eigen::Index words = words_of_bead();
   Eigen::ArrayXXd table(rows, remembered_ * words);
   for (int k = 0; k < remembered_; ++k) {
     const PastEvaluation<D>& m = past_[k];
@@ -233,14 +241,15 @@ Eigen::ArrayXXd History<D>::of_beads(Eigen::Index first, Eigen::Index rows) cons
     words_of.template leftCols<D>() = m.point.middleRows(first, rows);
     words_of.col(D) = m.point_charge.segment(first, rows);
     words_of.template middleCols<D>(D + 1) = m.field.middleRows(first, rows);
-    words_of.rightCols(columns()) = m.slope.middleRows(first, rows);
+    words_of.middleCols(2 * D + 1, columns()) = m.slope.middleRows(first, rows);
+    if (with_states_) words_of.rightCols(D + columns()) = m.state.middleRows(first, rows);
   }
   return table;
 }
 
 template <int D>
 void History<D>::set_beads(const Eigen::ArrayXXd& table) {
-  const Eigen::Index n = table.rows(), words = 2 * D + 1 + columns();
+  const Eigen::Index n = table.rows(), words = words_of_bead(), columns = this->columns();
   for (int k = 0; k < remembered_; ++k) {
     PastEvaluation<D>& m = past_[k];
     const auto words_of = table.middleCols(k * words, words);
@@ -253,7 +262,8 @@ void History<D>::set_beads(const Eigen::ArrayXXd& table) {
     m.point_charge.head(n) = words_of.col(D);
     m.point_charge[n] = charge;
     m.field = words_of.template middleCols<D>(D + 1);
-    m.slope = words_of.rightCols(columns());
+    m.slope = words_of.middleCols(2 * D + 1, columns);
+    if (with_states_) m.state = words_of.rightCols(D + columns);
     if (continuable(n)) m.set_far();
   }
 }
@@ -261,7 +271,7 @@ void History<D>::set_beads(const Eigen::ArrayXXd& table) {
 template <int D>
 void History<D>::visit_all_but_beads(Archive& state) {
   Eigen::Index columns = this->columns();
-  state(remembered_, columns);
+  state(remembered_, columns, with_states_);
   if (state.reading() && (remembered_ < 0 || remembered_ > count || columns < 0))
     throw FileError("the checkpoint remembers what cannot be");
   for (int k = 0; k < remembered_; ++k) {

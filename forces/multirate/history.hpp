@@ -10,10 +10,10 @@
 /// Scaled. Source: e.g. Hairer, Norsett, Wanner, "Solving ODEs I", III.1.
 
 #include <array>
+#include <vector>
 
 #include "core/jet/chain.hpp"
 #include "core/jet/decomposition.hpp"
-#include "core/jet/refinement.hpp"
 #include "forces/terms/full_motion.hpp"
 #include "parallel/rows.hpp"
 
@@ -94,9 +94,11 @@ class History {
   void forget() { *this = {}; }
   void before_removal(const Jet<D>& jet, double Q);
   void after_release(const Jet<D>& jet, double Q, const Decomposition<D>& all = undivided<D>);
-  /// Before `refinement` of the jet: evaluates the same anew for the jets of the past, refined alike, or
-  /// forgets what was not enough for a parabola. Returns the evaluations.
-  int before_refinement(const Jet<D>& jet, const Refinement& refinement, FullMotion<D>& full);
+  /// The jets of the past, to be refined as the jet is; none, and what was not enough for a parabola is
+  /// forgotten.
+  std::vector<Jet<D>> past(const Jet<D>& jet);
+  /// Evaluates the same anew for them. Returns the evaluations.
+  int after_refinement(const Jet<D>& jet, std::vector<Jet<D>> past, FullMotion<D>& full);
 
   /// FileError if what is read cannot be of one jet.
   void visit(Archive& state);
@@ -109,10 +111,12 @@ class History {
  private:
   using Points = typename Chain<D>::Points;
 
-  void lead_to(double t, State<D> slope, std::array<Jet<D>, count>& past) const;
+  Eigen::Index words_of_bead() const;
+  static void lead_to(double t, State<D> slope, std::vector<Jet<D>>& past);
 
   std::array<PastEvaluation<D>, count> past_;  ///< newest first
   int remembered_ = 0;
+  bool with_states_ = false;
 };
 
 }  // namespace treejet

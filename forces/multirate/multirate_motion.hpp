@@ -39,14 +39,12 @@ class MultirateMotion final : public RightHandSide<D> {
   /// With `refines` elements may be split and merged.
   MultirateMotion(EquationsOfMotion<D>& full, const ErrorNorm& norm, const ShortWaves& short_waves,
                   bool refines = false)
-      : MultirateMotion(full, full, norm, short_waves, undivided<D>) {
-    refines_ = refines;
-  }
+      : MultirateMotion(full, full, norm, short_waves, undivided<D>, refines) {}
   /// Of a jet in subdomains, whose rows here include those of the fast region, these from `local` terms, and
   /// all from time to time from `full`.
   MultirateMotion(EquationsOfMotion<D>& local, FullMotion<D>& full, const ErrorNorm& norm,
-                  const ShortWaves& short_waves, const Decomposition<D>& all)
-      : local_(local), full_(full), norm_(norm), short_waves_(short_waves), all_(all) {}
+                  const ShortWaves& short_waves, const Decomposition<D>& all, bool refines = false)
+      : local_(local), full_(full), norm_(norm), short_waves_(short_waves), all_(all), refines_(refines) {}
 
   /// For the tables of all beads, or of those that `followed` gave.
   void operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) override;
@@ -63,10 +61,9 @@ class MultirateMotion final : public RightHandSide<D> {
   void complete(const Jet<D>& jet, double h, const State<D>& some, State<D>& next) override;
   void before_removal(const Jet<D>& jet) override { history_.before_removal(jet, Q()); }
   void after_release(const Jet<D>& jet) override { history_.after_release(jet, Q(), all_); }
-  /// In subdomains, which are cut anew, what is remembered is forgotten.
-  std::int64_t before_refinement(const Jet<D>& jet, const Refinement& refinement) override {
-    if (all_.in_subdomains()) return history_.forget(), 0;
-    const int evaluations = history_.before_refinement(jet, refinement, full_);
+  std::vector<Jet<D>> past(const Jet<D>& jet) override { return history_.past(jet); }
+  std::int64_t after_refinement(const Jet<D>& jet, std::vector<Jet<D>> past) override {
+    const int evaluations = history_.after_refinement(jet, std::move(past), full_);
     full_evaluations_ += evaluations;
     return evaluations;
   }
@@ -108,7 +105,7 @@ class MultirateMotion final : public RightHandSide<D> {
   ErrorNorm norm_;
   ShortWaves short_waves_;
   const Decomposition<D>& all_;
-  bool refines_ = false;
+  bool refines_;
   History<D> history_;
   double interval_ = 0;  ///< from a moment to the next node that is one, and the longest step
   std::int64_t full_evaluations_ = 0;

@@ -378,7 +378,7 @@ void distribute(Scene<3>& scene, const Parameters& p, int beads, const JetOfRows
   if (two_rates) {
     motion->be_continued();
     scene.multirate = std::make_unique<MultirateMotion<3>>(
-        *scene.motion, *motion, ErrorNorm(p, scene.columns), ShortWaves(p), *subdomains);
+        *scene.motion, *motion, ErrorNorm(p, scene.columns), ShortWaves(p), *subdomains, p.refinement);
     subdomains->carry([m = scene.multirate.get()](auto first, auto rows) { return m->of_beads(first, rows); },
                       [m = scene.multirate.get()](const auto& table) { m->set_beads(table); });
   }

@@ -284,8 +284,9 @@ bool March<D>::refine_if_due(std::int64_t released_before) {
   if (!parts_.spacing || !parts_.spacing->due(jet_.t, effort_.released > released_before)) return false;
   const Refinement refinement = parts_.decomposition.refinement(jet_, *parts_.spacing);
   if (refinement.empty()) return false;
-  effort_.evaluations += parts_.motion.before_refinement(jet_, refinement);
-  parts_.decomposition.refine(jet_, refinement);
+  std::vector<Jet<D>> past = parts_.motion.past(jet_);
+  parts_.decomposition.refine(jet_, refinement, past);
+  effort_.evaluations += parts_.motion.after_refinement(jet_, std::move(past));
   for (const RefinementPass& pass : refinement)
     (pass.kind == RefinementPass::Kind::split ? effort_.split : effort_.merged) += std::ssize(pass.rows);
   for (auto* w : parts_.observers) w->refined(jet_, refinement);

@@ -375,8 +375,9 @@ TEST_CASE("What is continued after a refinement is the past of the refined jet, 
       step();
     }
     const Refinement refinement = {{RefinementPass::Kind::split, {20, 24, 30, 37, 50, 60}}};
-    CHECK(two.before_refinement(jet, refinement) == 4);  // of the jet now and of three of the past
-    refine(jet, refinement);
+    std::vector<Jet<3>> past = two.past(jet);
+    undivided<3>.refine(jet, refinement, past);
+    CHECK(two.after_refinement(jet, past) == 4);  // of the jet now and of three of the past
     step();
     two(jet, jet.t, jet.y, continued);
     full(jet, jet.t, jet.y, expected);
