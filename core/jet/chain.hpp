@@ -38,6 +38,7 @@ struct Chain {
   /// Rows from `oldest` on are `left_out` higher in the jet.
   const Eigen::ArrayXd* volume_at_nozzle = nullptr;
   Eigen::Index oldest = 0, left_out = 0;
+  Census census;         ///< of the whole jet
   double held_mass = 0;  ///< of the held bead, and its volume
   Vec<D> nozzle_velocity = Vec<D>::Zero();
 
@@ -70,6 +71,7 @@ void set_boundary(Chain<D>& chain, const Jet<D>& jet, const Nozzle<D>& nozzle, d
   chain.volume_at_nozzle = jet.all_volumes ? jet.all_volumes : &jet.volume;
   chain.oldest = 0;
   chain.left_out = jet.first_of_all;
+  chain.census = {chain.volume_at_nozzle->size(), jet.removed - jet.first_of_all, jet.born};
   chain.nozzle_velocity = nozzle.velocity(t);
   chain.point.resize(points, Eigen::NoChange);
   chain.point_charge.resize(points);

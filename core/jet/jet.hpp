@@ -57,6 +57,14 @@ struct Jet : SolutionPoint<D> {
   }
 };
 
+/// Which beads a jet has: one that goes on has the same numbers again only as long as no beads come, go or
+/// are refined. Of a jet without ids (born is 0) they do not tell.
+struct Census {
+  Eigen::Index beads = 0;
+  std::int64_t removed = 0, born = 0;
+  bool operator==(const Census&) const = default;
+};
+
 /// A bead, scaled: an initial one has mass, charge and volume 1.
 template <int D>
 struct Bead {

@@ -117,6 +117,7 @@ void MultirateMotion<D>::follow(const Jet<D>& jet, const State<D>& y) {
   gather_fast(jet.charge, fast_region_.jet.charge);
   gather_fast(jet.volume, fast_region_.jet.volume);
   volumes_ = &all_.all_volumes(jet);
+  census_ = {volumes_->size(), jet.removed, jet.born};
   gather_fast(y, fast_region_.jet.y);
   fast_region_.jet.held = jet.held;
   fast_region_.jet.last_release = jet.last_release;
@@ -171,6 +172,7 @@ void MultirateMotion<D>::continued_ends(const Jet<D>& jet, double t, const State
   chain_.volume_at_nozzle = volumes_;
   chain_.oldest = fast_region_old;
   chain_.left_out = volumes_->size() - n;
+  chain_.census = census_;
   set_points<D>(chain_, jet, y, {0, n});
   set_near_beads(w, y, slope);
   for (const FastEnd& end : fast_ends(n, chain_.points())) {

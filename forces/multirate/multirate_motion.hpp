@@ -113,6 +113,7 @@ class MultirateMotion final : public RightHandSide<D> {
 
   FastRegion<D> fast_region_{{}, fast_region_old};
   const Eigen::ArrayXd* volumes_ = nullptr;  ///< of all elements
+  Census census_;                            ///< of the jet
   Eigen::ArrayXd specific_charge_;           ///< Q q / m of the followed beads
   Chain<D> chain_;                           ///< of these
   Points field_;                             ///< of this stage

@@ -65,6 +65,7 @@ class SlenderSelfField final : public ForceTerm<D> {
   Section section_;
   bool uneven_;
   std::optional<Evaporation> drying_;
+  Census census_;
   Eigen::ArrayXd volume_, joints_;  ///< of all elements of the jet, and what follows
 };
 

@@ -3,8 +3,11 @@
 #include "forces/terms/joints.hpp"
 
 #include <catch2/catch.hpp>
+#include <functional>
 #include <numbers>
 
+#include "core/jet/decomposition.hpp"
+#include "core/jet/refinement.hpp"
 #include "forces/terms/coulomb_force.hpp"
 #include "forces/terms/slender_self_field.hpp"
 #include "validation/support/scenes.hpp"
@@ -146,4 +149,26 @@ TEST_CASE("Joints are those of the volumes now, though a jet has as many element
   auto fresh = equations<3>(plain_parameters(), SlenderSelfField<3>(2, section, /*uneven*/ true));
   slope(used, jet(1, 0.5));
   CHECK((slope(used, jet(0.5, 1)) == slope(fresh, jet(0.5, 1))).all());
+}
+
+TEST_CASE("Joints of a jet whose beads are numbered follow it through splits, merges, arrivals and births") {
+  const Section section{0.05, 1};
+  const auto scene = [&] {
+    return equations<3>(plain_parameters(), SlenderSelfField<3>(2, section, /*uneven*/ true));
+  };
+  auto used = scene();
+  Jet<3> jet;
+  for (int i = 0; i < 12; ++i) append<3>(jet, Bead<3>(Vec<3>(12 - i, 0.1 * (i % 3), 0)));
+  number_beads(jet);
+  // as many elements before and after all but the first two
+  const std::vector<std::function<void()>> changes = {
+      [&] { split<3>(jet, {3}); }, [&] { split<3>(jet, {6}); },
+      [&] { split<3>(jet, {9}), merge<3>(jet, {4}); }, [&] { merge<3>(jet, {7}), split<3>(jet, {2}); },
+      [&] { drop_first<3>(jet), append<3>(jet, Bead<3>(Vec<3>(0.2, 0, 0))); }};
+  for (const auto& change : changes) {
+    const State<3> before = slope(used, jet);
+    change();
+    auto fresh = scene();
+    CHECK((slope(used, jet) == slope(fresh, jet)).all());
+  }
 }
