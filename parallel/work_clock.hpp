@@ -8,12 +8,13 @@
 ///
 /// Kinds exclude each other: what a scope inside another is told of does not count for the outer one, so that
 /// their sum is the time since the start. `tuning` alone keeps all that is inside it. What no scope names is
-/// `steps`. Without a clock, which is the rule, a scope looks at one pointer; with one it reads the system's
-/// clock twice, about 40 ns. No result depends on it.
+/// `steps`. Without a clock a scope looks at one pointer; with one it reads the system's clock twice, 50 to
+/// 120 ns, or leaves that to a thread that looks now and then (sampled_work.hpp), as in a run. No result
+/// depends on it.
 
 #include <array>
+#include <atomic>
 #include <chrono>
-#include <utility>
 
 namespace treejet {
 
@@ -36,15 +37,27 @@ using WorkSeconds = std::array<double, work_names.size()>;
 
 class WorkClock {
  public:
-  WorkClock() : outer_(running_) { running_ = this; }
+  /// Who reads the time: each scope, or somebody else who looks what is being done (sampled_work.hpp).
+  enum class Reading { by_scopes, by_others };
+
+  explicit WorkClock(Reading reading = Reading::by_scopes)
+      : reads_(reading == Reading::by_scopes), outer_(running_) {
+    running_ = this;
+  }
   ~WorkClock() { running_ = outer_; }
   WorkClock(const WorkClock&) = delete;
   WorkClock& operator=(const WorkClock&) = delete;
 
-  /// So far.
+  /// Whether one is told of what this thread does.
+  static bool told() { return running_ != nullptr; }
+
+  /// What is done now; may be asked by other threads.
+  Work now() const { return work_.load(std::memory_order_relaxed); }
+
+  /// So far, if scopes read the time.
   WorkSeconds seconds() const {
     WorkSeconds all = seconds_;
-    all[static_cast<std::size_t>(work_)] += since(Clock::now());
+    all[static_cast<std::size_t>(now())] += since(Clock::now());
     return all;
   }
 
@@ -55,24 +68,34 @@ class WorkClock {
   double since(Clock::time_point now) const { return std::chrono::duration<double>(now - last_).count(); }
   /// Returns what was done before.
   Work turn_to(Work work) {
-    const Clock::time_point now = Clock::now();
-    seconds_[static_cast<std::size_t>(work_)] += since(now);
-    last_ = now;
-    return std::exchange(work_, work);
+    const Work before = now();
+    if (reads_) {
+      const Clock::time_point now = Clock::now();
+      seconds_[static_cast<std::size_t>(before)] += since(now);
+      last_ = now;
+    }
+    work_.store(work, std::memory_order_relaxed);
+    return before;
   }
 
   static constinit inline thread_local WorkClock* running_ = nullptr;
+  bool reads_;
   WorkClock* outer_;
   WorkSeconds seconds_{};
-  Work work_ = Work::steps;
+  std::atomic<Work> work_ = Work::steps;
   Clock::time_point last_ = Clock::now();
 };
+
+/// So many points or beads take a hundred times as long as it takes to tell of them.
+constexpr int points_worth_telling = 16;
 
 /// A scope in which this is done.
 class Working {
  public:
-  explicit Working(Work work) : clock_(WorkClock::running_) {
-    if (clock_ && clock_->work_ == Work::tuning) clock_ = nullptr;
+  /// What is not worth telling counts for the scope around it.
+  explicit Working(Work work, bool worth_telling = true)
+      : clock_(worth_telling ? WorkClock::running_ : nullptr) {
+    if (clock_ && clock_->now() == Work::tuning) clock_ = nullptr;
     if (clock_) before_ = clock_->turn_to(work);
   }
   ~Working() {

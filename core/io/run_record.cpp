@@ -117,6 +117,7 @@ void RunRecord::end(const char* outcome, const RunResults& results) {
   segment["wall_seconds"] =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   for (const auto& [name, seconds] : results.times) segment[name] = seconds;
+  for (const auto& [name, seconds] : results.work) segment["work"][name] = seconds;
   for (const auto& [name, count] : results.effort) record["effort"][name] = count;
   for (const auto& [name, value] : results.fixed_step) record["fixed_step"][name] = value;
   for (const RecordedMean& m : results.means)

@@ -4,18 +4,19 @@
 ///     {"format": "treejet run record 1", "program", "version", "commit", "compiler", "build", "vector_path",
 ///      "libraries", "deck": {"name", "text", "overrides"}, "begins_with", "field_map", "files": [...],
 ///      "segments": [{"started", "host", "ranks", "threads", "ended", "wall_seconds", "outcome", "compute",
-///                    "exchange", "wait", "gatherings"}, ...],
+///                    "exchange", "wait", "gatherings", "work": {"steps", "multirate", "local", "build",
+///                    "upward", "exchange", "evaluate", "tuning", "output"}}, ...],
 ///      "effort": {"evaluations", "steps", "rejected", "retaken", "inserted", "arrived", "beads"},
 ///      "fixed_step": {"step_error", "samples", "event_lateness"},
 ///      "means": {"vc": {"unit", "mean", "error", "from", "values", "block", "steady"}, ...}}
 ///
 /// A segment is one process: the first run or a resumption. Its outcome is "running" until it is over, and
 /// stays so if the program is killed; then "completed", "stopped early" or "failed". Times are UTC; compute,
-/// exchange and wait are seconds of a rank in the mean. Effort, of all segments together, and means
-/// (core/observe/steady_mean.hpp) are those of a completed run;
-/// fixed_step (core/observe/step_errors.hpp) is there in runs by `timestep`. This is the only file of a run
-/// whose bytes depend on when, where and on how many cores it ran. The only place that knows the JSON
-/// library.
+/// exchange and wait are seconds of a rank in the mean, and so are the kinds of work
+/// (parallel/work_clock.hpp), which add up to the time from the first step to the last. Effort, of all
+/// segments together, and means (core/observe/steady_mean.hpp) are those of a completed run; fixed_step
+/// (core/observe/step_errors.hpp) is there in runs by `timestep`. This is the only file of a run whose bytes
+/// depend on when, where and on how many cores it ran. The only place that knows the JSON library.
 
 #include <chrono>
 #include <filesystem>
@@ -42,6 +43,7 @@ struct RecordedMean {
 struct RunResults {
   std::vector<std::pair<std::string, std::int64_t>> effort;
   std::vector<std::pair<std::string, double>> times;  ///< s, of this segment
+  std::vector<std::pair<std::string, double>> work;   ///< of its kinds, as times
   std::vector<RecordedMean> means;
   std::vector<std::pair<std::string, double>> fixed_step = {};  ///< empty: not by `timestep`
 };

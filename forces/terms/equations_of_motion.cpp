@@ -25,8 +25,8 @@ EquationsOfMotion<D>::EquationsOfMotion(Nozzle<D> nozzle, std::unique_ptr<Stress
 
 template <int D>
 void EquationsOfMotion<D>::operator()(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope) {
-  const Working at(Work::local);
   const int n = static_cast<int>(y.rows());
+  const Working at(Work::local, n >= points_worth_telling);
   slope.resize(n, y.cols());
   if (n == 0) return;
   const Threads threads = worthwhile(threads_, n);

@@ -123,7 +123,11 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysi
   Checkpoint* const steps = from.origin ? steps_of(*from.origin, p) : nullptr;
   Simulation<D> simulation(deck, system(scene),
                            {outputs, [&stop] { return stop(); }, from.resumed, own_observables<D>(own), steps,
-                            [&ranks] { return ranks.times(); }});
+                            [&ranks] { return ranks.times(); },
+                            [&ranks](std::span<double> numbers) {
+                              ranks.sum(numbers);
+                              for (double& number : numbers) number /= ranks.size();
+                            }});
   if (!a.quiet) {
     fmt::print("{}\n{}\n{}{}", program(made_by), deck.name, notes(deck),
                composition(scene.composed, scene.left_out));

@@ -4,7 +4,7 @@
 
 #include "core/io/output_files.hpp"
 #include "core/jet/scales.hpp"
-#include "parallel/work_clock.hpp"
+#include "parallel/sampled_work.hpp"
 
 namespace treejet {
 
@@ -73,7 +73,8 @@ Simulation<D>::Simulation(const Deck& deck, const System<D>& system, const Setti
                nullptr,
                setting.observables,
                nullptr,
-               setting.gather_times},
+               setting.gather_times,
+               setting.mean_over_ranks},
       lock_(setting.outputs.elsewhere
                 ? std::optional<DirectoryLock>()
                 : std::optional<DirectoryLock>(std::in_place, setting.outputs.directory)),
@@ -103,7 +104,7 @@ Simulation<D>::Simulation(const Deck& deck, const System<D>& system, const Setti
 
 template <int D>
 bool Simulation<D>::finish() {
-  const bool arrived = march_.to(deck_.parameters.final_time / time_unit_);
+  const bool arrived = march_to_end();
   if (arrived) outputs_.complete(results());
   if (!arrived || !checkpoints_) return arrived;
   saved_before_end_ ? checkpoints_->conclude_with_newest()
@@ -112,10 +113,22 @@ bool Simulation<D>::finish() {
 }
 
 template <int D>
+bool Simulation<D>::march_to_end() {
+  const SampledWork work;
+  const bool arrived = march_.to(deck_.parameters.final_time / time_unit_);
+  work_ = work.seconds();
+  return arrived;
+}
+
+template <int D>
 RunResults Simulation<D>::results() const {
   const Effort& e = march_.effort();
   const GatherTimes t = setting_.gather_times();
   const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+  WorkSeconds of_kinds = work_;
+  setting_.mean_over_ranks(of_kinds);
+  std::vector<std::pair<std::string, double>> work;
+  for (std::size_t k = 0; k < of_kinds.size(); ++k) work.emplace_back(work_names[k], of_kinds[k]);
   return {{{"evaluations", e.evaluations},
            {"steps", e.steps},
            {"rejected", e.rejected},
@@ -127,6 +140,7 @@ RunResults Simulation<D>::results() const {
            {"exchange", t.exchange},
            {"wait", t.wait},
            {"gatherings", double(t.count)}},
+          work,
           {}};
 }
 

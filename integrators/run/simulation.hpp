@@ -8,6 +8,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "core/deck/deck.hpp"
@@ -17,6 +18,7 @@
 #include "core/restart/stop_request.hpp"
 #include "integrators/run/integration.hpp"
 #include "parallel/ranks.hpp"
+#include "parallel/work_clock.hpp"
 
 namespace treejet {
 
@@ -33,6 +35,8 @@ class Simulation {
     /// Of another run, whose steps this one goes on with; null where they begin with the system's jet.
     Checkpoint* steps = nullptr;
     std::function<GatherTimes()> gather_times = [] { return GatherTimes(); };  ///< of all ranks together
+    /// Numbers of a rank become those of all ranks in the mean.
+    std::function<void(std::span<double>)> mean_over_ranks = [](std::span<double>) {};
   };
 
   /// Opens the files; FileError if one exists already or cannot be made, or cannot be continued.
@@ -48,6 +52,7 @@ class Simulation {
   std::string summary() const;
 
  private:
+  bool march_to_end();
   bool stop_here();
   void save();
   std::string flow_summary() const;
@@ -74,6 +79,7 @@ class Simulation {
   using Clock = std::chrono::steady_clock;
   Clock::time_point started_ = Clock::now();  ///< as if never stopped
   const Clock::time_point begun_ = Clock::now();
+  WorkSeconds work_{};  ///< of `finish`, where it went
 };
 
 }  // namespace treejet

@@ -18,7 +18,7 @@ class DirectSum final : public FieldSolver<D> {
 
   void field(const PointCharges<D>& points, Rows rows, const FieldArrays<D>& field,
              Threads threads) override {
-    const Working at(Work::evaluate);
+    const Working at(Work::evaluate, points.n >= points_worth_telling);
     const bool all_pairs = reach_ >= points.n - 1;
     if (all_pairs && points.n <= few_points) return coulomb_mutual<D>(points, field);
     share_rows(ranks_, threads, rows, direct_block, field, [&](Rows some) {

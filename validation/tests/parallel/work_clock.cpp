@@ -1,4 +1,4 @@
-#include "parallel/work_clock.hpp"
+#include "parallel/sampled_work.hpp"
 
 #include <catch2/catch.hpp>
 #include <numeric>
@@ -78,4 +78,37 @@ TEST_CASE("A clock tells of its own thread, and of nothing once it has gone") {
   CHECK(of(outer, Work::build) == 0);
   { const Working at(Work::upward); }
   CHECK(of(outer, Work::upward) > 0);
+}
+
+TEST_CASE("A thread that looks what is being done finds the parts of the time that it takes") {
+  const auto before = Clock::now();
+  const SampledWork sampled;
+  for (int k = 0; k < 40; ++k) {
+    const Working outer(Work::local);
+    work(1);
+    const Working inner(Work::build);
+    work(3);
+  }
+  const WorkSeconds seconds = sampled.seconds();
+  const double all = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  const double most = std::chrono::duration<double>(Clock::now() - before).count();
+  CHECK(all <= most * (1 + 1e-12));  // rounds as above
+  CHECK(all >= 0.16);
+  const double local = seconds[static_cast<std::size_t>(Work::local)],
+               build = seconds[static_cast<std::size_t>(Work::build)];
+  // 160 looks know a part of three quarters to 0.03; a thread that gets no core in time looks less often
+  CHECK(build > local);
+  CHECK(seconds[static_cast<std::size_t>(Work::upward)] == 0);
+}
+
+TEST_CASE("Where a clock is told already, nobody looks") {
+  const WorkClock clock;
+  const SampledWork sampled;
+  {
+    const Working at(Work::build);
+    work(1);
+  }
+  CHECK(of(clock, Work::build) >= 0.001);
+  const WorkSeconds seconds = sampled.seconds();
+  CHECK(std::accumulate(seconds.begin(), seconds.end(), 0.0) == 0);
 }

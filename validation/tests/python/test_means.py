@@ -121,6 +121,10 @@ def test_the_record_of_a_run_tells_its_effort_and_where_its_time_went(jet):
     assert effort["inserted"] - effort["arrived"] + 1 == effort["beads"] == jet.observables["n"][-1]
     assert effort["evaluations"] > effort["steps"] > 100
     assert segment["gatherings"] == 0 and 0 < segment["compute"] <= segment["wall_seconds"]
+    work = segment["work"]
+    assert {"steps", "local", "evaluate", "exchange", "output"} < work.keys() and min(work.values()) >= 0
+    assert work["steps"] > 0 and work["exchange"] == 0  # a rank that is alone sends nothing
+    assert 0.5 * segment["compute"] < sum(work.values()) <= segment["compute"]
 
 
 def test_a_value_that_is_tended_to_without_noise_is_steady_once_the_rest_is_a_millionth():
