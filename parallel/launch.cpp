@@ -1,6 +1,8 @@
 #include "parallel/launch.hpp"
 
+#include <charconv>
 #include <cstdlib>
+#include <cstring>
 
 namespace treejet {
 
@@ -15,8 +17,9 @@ constexpr Launcher launchers[] = {{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK
                                   {"SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}};
 
 int number(const char* variable, int otherwise) {
-  const char* text = std::getenv(variable);
-  return text ? std::atoi(text) : otherwise;
+  const char* const text = std::getenv(variable);
+  if (text) std::from_chars(text, text + std::strlen(text), otherwise);
+  return otherwise;
 }
 
 }  // namespace

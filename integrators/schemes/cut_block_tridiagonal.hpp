@@ -63,7 +63,8 @@ class CutBlockTridiagonal {
 
  private:
   using Pair = Eigen::Matrix<double, 2 * B, 1>;  ///< the first and the last unknown of a subdomain
-  static constexpr std::size_t numbers_of_cuts = 1 + 4 * B * B, numbers_of_values = 2 * B;
+  static constexpr std::size_t of_block = Block::SizeAtCompileTime, numbers_of_cuts = 1 + 4 * of_block,
+                               numbers_of_values = 2 * B;
 
   /// Of each subdomain whether it has rows, and W and V of its first and last one.
   void gather_cuts() {
@@ -73,7 +74,7 @@ class CutBlockTridiagonal {
       double* to = &mine[1];
       for (const Block* block : {&W_.front(), &W_.back(), &V_.front(), &V_.back()}) {
         Eigen::Map<Block>{to} = *block;
-        to += B * B;
+        to += Block::SizeAtCompileTime;
       }
     }
     const std::vector<double> all = of_all_(mine);
@@ -92,7 +93,7 @@ class CutBlockTridiagonal {
   typename BlockTridiagonal<2 * B>::Row at_cut(const double* from) const {
     const auto next = [&from] {
       const Eigen::Map<const Block> block(from);
-      from += B * B;
+      from += Block::SizeAtCompileTime;
       return block;
     };
     typename BlockTridiagonal<2 * B>::Row row;
