@@ -71,6 +71,12 @@ class Ranks {
   using Messages = std::vector<std::vector<double>>;
   Messages exchange(const Messages& to) const;
 
+  /// A message to another rank, which receives it, be it empty; returns at once. Between two ranks messages
+  /// arrive in the order in which they are sent. Nobody else takes part in either.
+  void send(int to, std::vector<double> message) const;
+  /// The next one from that rank; waits for it.
+  std::vector<double> receive(int from) const;
+
   /// The bytes of rank `from`, on the first rank; these two take part, the others get back what
   /// they gave.
   std::string to_first(int from, std::string bytes) const;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <list>
 #include <thread>
 
 #include "parallel/launch.hpp"
@@ -46,6 +47,21 @@ struct Message {
   double& last_word(std::size_t rank) { return of(rank)[counts[rank] - 1]; }
 };
 
+/// A message that has been sent and may not have been received.
+struct UnderWay {
+  std::vector<double> message;
+  MPI_Request request;
+
+  bool done() {
+    int done;
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    return done != 0;
+  }
+};
+
+/// What messages are for: those of `to_first` and of `send` do not mix with the others.
+enum Tag { of_exchange, to_the_first, sent_alone };
+
 /// The cores that a rank may run on and the threads it runs there.
 struct Berth {
   CoreSet cores;
@@ -57,6 +73,7 @@ struct Berth {
 struct Ranks::World {
   MPI_Comm everyone = MPI_COMM_NULL, failed = MPI_COMM_NULL, node = MPI_COMM_NULL;
   Message message;
+  std::list<UnderWay> under_way;
   GatherTimes times;
   RankTraffic traffic;
   double last = 0;  ///< seconds of the last gathering
@@ -160,15 +177,40 @@ Ranks::Messages Ranks::exchange(const Messages& to) const {
       continue;
     }
     from[k].resize(static_cast<std::size_t>(in[k]));
-    if (in[k] > 0) MPI_Irecv(from[k].data(), in[k], MPI_DOUBLE, other, 0, comm, &under_way.emplace_back());
+    if (in[k] > 0)
+      MPI_Irecv(from[k].data(), in[k], MPI_DOUBLE, other, of_exchange, comm, &under_way.emplace_back());
     if (out[k] == 0) continue;
-    MPI_Isend(to[k].data(), out[k], MPI_DOUBLE, other, 0, comm, &under_way.emplace_back());
+    MPI_Isend(to[k].data(), out[k], MPI_DOUBLE, other, of_exchange, comm, &under_way.emplace_back());
     ++world_->traffic.messages;
     world_->traffic.message_bytes += bytes_of(to[k].size());
   }
   MPI_Waitall(static_cast<int>(under_way.size()), under_way.data(), MPI_STATUSES_IGNORE);
   world_->times.exchange += seconds_since(begin);
   return from;
+}
+
+void Ranks::send(int to, std::vector<double> message) const {
+  const Working at(Work::exchange);
+  std::list<UnderWay>& under_way = world_->under_way;
+  under_way.remove_if([](UnderWay& sent) { return sent.done(); });
+  UnderWay& sent = under_way.emplace_back(std::move(message), MPI_REQUEST_NULL);
+  MPI_Isend(sent.message.data(), static_cast<int>(sent.message.size()), MPI_DOUBLE, to, sent_alone,
+            world_->everyone, &sent.request);
+  ++world_->traffic.messages;
+  world_->traffic.message_bytes += bytes_of(sent.message.size());
+}
+
+std::vector<double> Ranks::receive(int from) const {
+  const Working at(Work::exchange);
+  const auto begin = Clock::now();
+  MPI_Status status;
+  int count;
+  MPI_Probe(from, sent_alone, world_->everyone, &status);
+  MPI_Get_count(&status, MPI_DOUBLE, &count);
+  std::vector<double> message(static_cast<std::size_t>(count));
+  MPI_Recv(message.data(), count, MPI_DOUBLE, from, sent_alone, world_->everyone, MPI_STATUS_IGNORE);
+  world_->times.exchange += seconds_since(begin);
+  return message;
 }
 
 /// Nobody sends before the first rank asks: what arrives unasked for would pile up there.
@@ -178,16 +220,16 @@ std::string Ranks::to_first(int from, std::string bytes) const {
   const auto begin = Clock::now();
   const MPI_Comm comm = world_->everyone;
   if (rank_ == from) {
-    MPI_Ssend(bytes.data(), static_cast<int>(bytes.size()), MPI_CHAR, 0, 1, comm);
+    MPI_Ssend(bytes.data(), static_cast<int>(bytes.size()), MPI_CHAR, 0, to_the_first, comm);
     ++world_->traffic.messages;
     world_->traffic.message_bytes += static_cast<std::int64_t>(bytes.size());
   } else {
     MPI_Status status;
     int count;
-    MPI_Probe(from, 1, comm, &status);
+    MPI_Probe(from, to_the_first, comm, &status);
     MPI_Get_count(&status, MPI_CHAR, &count);
     bytes.resize(static_cast<std::size_t>(count));
-    MPI_Recv(bytes.data(), count, MPI_CHAR, from, 1, comm, MPI_STATUS_IGNORE);
+    MPI_Recv(bytes.data(), count, MPI_CHAR, from, to_the_first, comm, MPI_STATUS_IGNORE);
   }
   world_->times.exchange += seconds_since(begin);
   return bytes;

@@ -60,15 +60,14 @@ void DistributedMotion::extend(const Jet<3>& jet, const State<3>& y) {
 }
 
 std::array<std::vector<double>, 2> DistributedMotion::of_neighbours(const RecordOfRow& record) const {
+  const Ranks& ranks = subdomains_.ranks();
   const int older = subdomains_.older(), younger = subdomains_.younger();
   const Rows own = subdomains_.own();
-  Ranks::Messages messages(index(subdomains_.ranks().size()));
-  if (older >= 0) messages[index(older)] = record(own.first);
-  if (younger >= 0) messages[index(younger)] = record(own.last - 1);
-  Ranks::Messages received = subdomains_.ranks().exchange(messages);
+  if (older >= 0) ranks.send(older, record(own.first));
+  if (younger >= 0) ranks.send(younger, record(own.last - 1));
   std::array<std::vector<double>, 2> rows;
-  if (older >= 0) rows[0] = std::move(received[index(older)]);
-  if (younger >= 0) rows[1] = std::move(received[index(younger)]);
+  if (older >= 0) rows[0] = ranks.receive(older);
+  if (younger >= 0) rows[1] = ranks.receive(younger);
   return rows;
 }
 

@@ -90,19 +90,18 @@ void compare_times(Report& report) {
 
 void print_model(Report& report, const DistributedMeasurement& base) {
   const LongChain jet("jet");
-  ScalingModel model{base.seconds / base.points, 0};
+  const ScalingModel model{base.seconds / base.points};
   auto table = report.table(
       "distributed_model", "MODEL, not a measurement: whipping jets of 1e6 and 1e8 points, and 1e4 a rank",
       {"scaling", "points", "ranks", "partners", "messages [kB]", "summaries [kB]", "messages",
-       "MODEL seconds", "of it points", "of it cards", "of it latency and messages", "MODEL efficiency"});
+       "MODEL seconds", "of it points", "of it summaries", "of it latency and messages", "MODEL efficiency"});
   const auto row = [&](const std::string& scaling, double points, int ranks) {
     const Volume v = ranks > 1 ? volume(jet, static_cast<int>(points), ranks, base.shape) : Volume{};
-    model.seconds_a_summary = v.seconds_a_summary;
     const double seconds = model.seconds(points, ranks, v), work = model.seconds_a_point * points / ranks,
-                 cards = ranks > 1 ? model.seconds_for_cards(ranks, v) : 0;
+                 summaries = model.seconds_for_summaries(v);
     table.row({scaling, points, std::int64_t{ranks}, v.partners, v.messages / 1e3,
-               double(v.common.table_bytes) / 1e3, model.messages(ranks, v), seconds, work, cards,
-               seconds - work - cards, work / seconds});
+               double(v.summaries.message_bytes) / 1e3, model.messages(ranks, v), seconds, work, summaries,
+               seconds - work - summaries, work / seconds});
   };
   const std::vector<int> teams =
       report.quick ? std::vector<int>{1, 100} : std::vector<int>{1, 10, 100, 1000, 10'000};
@@ -115,9 +114,8 @@ void print_model(Report& report, const DistributedMeasurement& base) {
       "\nMODEL, with these assumptions: seconds = points of a rank x {:.3g} us (measured on one rank, one "
       "core of "
       "this machine)\n"
-      "  + cards, which grow with the number of ranks: other ranks x the time of looking at a summary and "
-      "writing a message\n"
-      "    (measured here), and the bytes of summaries and lengths of messages\n"
+      "  + summaries, which grow with the number of ranks: joining and looking at them and writing messages "
+      "(measured here)\n"
       "  + messages x {:.0f} us + bytes / {:.0f} GB/s (both assumed, a common fabric's).\n"
       "  Summaries, messages and partners are counted for the subdomains in the middle and at the end of the "
       "chain.\n"

@@ -23,8 +23,7 @@ Rows share(int points, int ranks, int k) {
 }  // namespace
 
 Volume volume(const LongChain& chain, int points, int ranks, const TreeShape& shape) {
-  const EssentialTree others(ranks);
-  std::vector<std::vector<double>> summaries;
+  std::vector<Summary> of_ranks;
   // whole leaves, so that their radii are right
   const int stride = std::max(1, points / ranks / enough_for_a_summary);
   const auto tree_of = [&](int k, int every) {
@@ -38,47 +37,44 @@ Volume volume(const LongChain& chain, int points, int ranks, const TreeShape& sh
   for (int k = 0; k < ranks; ++k) {
     SubdomainTree tree = tree_of(k, stride);
     tree.equalise(all);
-    summaries.push_back(others.summary(tree.tree()));
+    of_ranks.push_back(EssentialTree::own_summary(tree.tree(), ranks));
   }
+  const GroupSummaries groups(std::move(of_ranks), shape);
   Volume most;
   for (const int k : {ranks / 2, ranks - 1}) {
     SubdomainTree subdomain = tree_of(k, 1);
     subdomain.equalise(all);
-    const Tree& tree = subdomain.tree();
     Volume own;
-    const double seconds = least_seconds([&] {
-      own = {};
-      for (int other = 0; other < ranks; ++other) {
-        if (other == k) continue;
-        const double* summary = summaries[static_cast<std::size_t>(other)].data();
-        const auto words = others.message(tree, summary, shape.opening).size();
-        own.messages += static_cast<double>(words * sizeof(double));
-        own.partners += words > 0;
-      }
+    own.summaries = groups.traffic_of(k);
+    own.seconds_for_summaries = least_seconds([&] {
+      const SummaryTree seen = groups.seen_by(k);
+      own.partners = static_cast<double>(seen.near().size());
+      own.messages = 0;
+      for (const SummaryTree::Near& near : seen.near())
+        own.messages +=
+            double(sizeof(double)) *
+            static_cast<double>(EssentialTree::message(subdomain.tree(), near.summary, shape.opening).size());
     });
-    own.seconds_a_summary = seconds / std::max(1, ranks - 1);
     if (own.messages >= most.messages) most = own;
-    most.common = common_traffic(ranks, summaries.front().size());
   }
   return most;
 }
 
-/// Summaries, lengths of messages (Bruck's algorithm) and decisions by doubling, a sum up a tree and down
-/// again, messages one by one.
+/// Decisions by doubling, a sum up a tree and down again, messages one by one.
 double ScalingModel::messages(double ranks, const Volume& v) const {
-  const RankTraffic& c = v.common;
-  const auto rounds = static_cast<double>(c.tables + c.exchanges + c.decisions + 2 * c.sums);
-  return ranks > 1 ? rounds * std::ceil(std::log2(ranks)) + v.partners : 0;
+  const RankTraffic common = common_traffic();
+  const auto rounds = static_cast<double>(common.decisions + 2 * common.sums);
+  return ranks > 1 ? rounds * std::ceil(std::log2(ranks)) + double(v.summaries.messages) + v.partners : 0;
 }
 
-double ScalingModel::seconds_for_cards(double ranks, const Volume& v) const {
-  const double lengths = sizeof(int) * ranks / 2 * std::ceil(std::log2(ranks));
-  return seconds_a_summary * (ranks - 1) + (static_cast<double>(v.common.table_bytes) + lengths) / bandwidth;
+double ScalingModel::seconds_for_summaries(const Volume& v) const {
+  return v.seconds_for_summaries + latency * double(v.summaries.messages) +
+         double(v.summaries.message_bytes) / bandwidth;
 }
 
 double ScalingModel::seconds(double points, double ranks, const Volume& v) const {
-  return seconds_a_point * points / ranks + seconds_for_cards(ranks, v) + latency * messages(ranks, v) +
-         v.messages / bandwidth;
+  return seconds_a_point * points / ranks + seconds_for_summaries(v) +
+         latency * (messages(ranks, v) - double(v.summaries.messages)) + v.messages / bandwidth;
 }
 
 }  // namespace treejet

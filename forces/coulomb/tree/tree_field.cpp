@@ -78,7 +78,7 @@ void TreeField::reshape(const TreeShape& shape, Threads threads) {
   shape_ = shape;
   equalise_errors(threads);
   if (same_order)
-    others_.graft(tree_, shape.opening);
+    others_.graft(tree_, shape_, *kernels_);
   else
     expand(threads);
 }
@@ -100,7 +100,7 @@ void TreeField::expand(Threads threads) {
     move_up(*kernels_, tree_.cells, tree_.expansions(), tree_.all_points(), threads);
   }
   const Working at(Work::exchange);
-  others_.graft(tree_, shape_.opening);
+  others_.graft(tree_, shape_, *kernels_);
 }
 
 std::vector<int> TreeField::leaves_of(Rows rows) const {

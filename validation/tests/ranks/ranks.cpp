@@ -19,6 +19,19 @@ TEST_CASE("Messages between ranks arrive whole, empty ones as empty ones") {
   CHECK(ranks.greatest(right ? 0 : 1) == 0);
 }
 
+TEST_CASE("Messages sent alone arrive in the order in which they are sent, long, short and empty") {
+  const Ranks& ranks = started_ranks();
+  const int next = (ranks.rank() + 1) % ranks.size(), last = (ranks.rank() + ranks.size() - 1) % ranks.size();
+  if (ranks.size() == 1) return;
+  // the long ones are more than what waits anywhere but with the sender
+  const std::vector<std::size_t> lengths = {1'000'000, 0, 3, 1, 200'000};
+  for (const std::size_t length : lengths) ranks.send(next, std::vector<double>(length, ranks.rank()));
+  bool right = true;
+  for (const std::size_t length : lengths)
+    right = ranks.receive(last) == std::vector<double>(length, last) && right;
+  CHECK(ranks.greatest(right ? 0 : 1) == 0);
+}
+
 TEST_CASE("A sum over ranks has the same bits on all of them") {
   const Ranks& ranks = started_ranks();
   double numbers[] = {0.1 * (ranks.rank() + 1), 1, 1e-17};
