@@ -1,5 +1,6 @@
 #pragma once
-/// An HDF5 file: the only place that knows the HDF5 library.
+/// An HDF5 file. The only place that knows the HDF5 library: writing is in hdf5_file.cpp, reading in
+/// hdf5_reading.cpp and hdf5_table.cpp.
 ///
 /// Objects are named by their full path, "/particles/jet/position/value". Datasets hold doubles or 64-bit
 /// integers, are chunked, may be shuffled and deflated, and may grow in every dimension. Nothing in a file
