@@ -101,7 +101,8 @@ class Presence {
   /// All of a box of chunks, nothing of it, or each half by itself.
   void collect(const TableBox& chunks, std::vector<TableBox>& found) const {
     std::uint64_t all = 0, some = 0;
-    for_each_place(chunks, [&](const Extent& place) { ++all, some += at(place) ? 1 : 0; });
+    for_each_place(chunks,
+                   [&](const Extent& place) { ++all, some += there_[number_in(grid_, place)] ? 1 : 0; });
     if (some == 0) return;
     if (some == all) return found.push_back(values_of(chunks));
     const auto longest = static_cast<std::size_t>(std::max_element(chunks.size.begin(), chunks.size.end()) -
@@ -112,12 +113,6 @@ class Presence {
     right.size[longest] -= left.size[longest];
     collect(left, found);
     collect(right, found);
-  }
-
-  bool at(const Extent& place) const {
-    std::uint64_t index = 0;
-    for (std::size_t k = 0; k < place.size(); ++k) index = index * grid_.size[k] + place[k] - grid_.first[k];
-    return there_[index];
   }
 
   TableBox values_of(const TableBox& chunks) const {

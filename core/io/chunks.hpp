@@ -42,7 +42,14 @@ std::vector<TableBox> parts_there(const TableBox& box, const Extent& chunk,
 /// The chunks that a box touches, by their place among chunks.
 TableBox chunks_touched_by(const TableBox& box, const Extent& chunk);
 
-/// Calls `act` with each place in a box, in the order of rows.
+/// Which one a place is in a box, in the order of rows.
+inline std::uint64_t number_in(const TableBox& box, const Extent& place) {
+  std::uint64_t number = 0;
+  for (std::size_t k = 0; k < place.size(); ++k) number = number * box.size[k] + place[k] - box.first[k];
+  return number;
+}
+
+/// Calls `act` with each place in a box, in that order.
 template <class Act>
 void for_each_place(const TableBox& box, Act act) {
   if (std::find(box.size.begin(), box.size.end(), 0) != box.size.end()) return;
@@ -67,13 +74,8 @@ void copy_shared(const TableBox& from_box, const T* from, const TableBox& to_box
     shared.size[k] = end - std::min(end, shared.first[k]);
   }
   const std::uint64_t row = std::exchange(shared.size.back(), std::min<std::uint64_t>(shared.size.back(), 1));
-  const auto index = [](const TableBox& box, const Extent& place) {
-    std::uint64_t at = 0;
-    for (std::size_t k = 0; k < place.size(); ++k) at = at * box.size[k] + place[k] - box.first[k];
-    return at;
-  };
   for_each_place(shared, [&](const Extent& place) {
-    std::copy_n(from + index(from_box, place), row, to + index(to_box, place));
+    std::copy_n(from + number_in(from_box, place), row, to + number_in(to_box, place));
   });
 }
 
