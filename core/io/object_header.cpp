@@ -159,11 +159,18 @@ class Header {
     }
   }
 
-  /// The names of a group's members.
+  /// The names of a group's members, and between them gaps, each of which leads to the next.
   void look_at_heap(std::uint64_t address) {
+    constexpr std::uint64_t gap = 16, no_more = 1;
     const std::string heap = bytes(address, 32);
     const std::uint64_t length = number(heap, 8, 8), at = number(heap, 24, 8);
     if (!heap.starts_with("HEAP") || at > size_ || length > size_ - at) damaged();
+    std::uint64_t next = number(heap, 16, 8);
+    for (std::uint64_t seen = 0; next != no_more; ++seen) {
+      // more than there is room for are seen only in a circle
+      if (seen > length / gap || length < gap || next > length - gap) damaged();
+      next = number(bytes(at + next, gap), 0, 8);
+    }
   }
 
   static constexpr std::uint64_t nowhere = ~std::uint64_t{0};

@@ -1,9 +1,10 @@
 #pragma once
 /// The header of an object in an HDF5 file, and what it leads to, read without the HDF5 library, as far as
 /// the library (1.10) would go astray: it divides by the extents of chunks before it looks whether they are
-/// all there, follows trees in circles, and takes an address that stands for nowhere for that of what it has
-/// in memory. Format: HDF5 File Format Specification 3.0, III.A.1 (trees), III.D (heaps), IV.A.1 (headers)
-/// and IV.A.2.b (dataspace), .i (layout), .q (continuation), .r (symbol table). FileError if it is damaged.
+/// all there, follows trees and gaps of heaps in circles, and takes an address that stands for nowhere for
+/// that of what it has in memory. Format: HDF5 File Format Specification 3.0, III.A.1 (trees), III.D (heaps),
+/// IV.A.1 (headers) and IV.A.2.b (dataspace), .i (layout), .q (continuation), .r (symbol table). FileError if
+/// it is damaged.
 
 #include <cstdint>
 #include <filesystem>

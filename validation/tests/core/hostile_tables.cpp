@@ -152,6 +152,34 @@ TEST_CASE("Names and chunks whose tree or heap is nowhere, or a tree in a circle
   CHECK_THROWS_AS(table_in(path, patched(patched(whole, tree, 24 + 24, nowhere), tree, 5, "\1")), FileError);
 }
 
+TEST_CASE("Gaps of a heap in a circle, or across its end, are refused before the library fills its memory") {
+  const Place place;
+  const auto path = place.path / "table.h5";
+  const std::string whole = file_of_a_table(path, true);
+  const std::size_t heap = whole.find("HEAP");
+  std::uint64_t length = 0, gap = 0, data = 0;
+  std::memcpy(&length, whole.data() + heap + 8, sizeof length);
+  std::memcpy(&gap, whole.data() + heap + 16, sizeof gap);
+  std::memcpy(&data, whole.data() + heap + 24, sizeof data);
+  REQUIRE(gap + 16 <= length);
+  std::string circle = whole;
+  std::memcpy(circle.data() + data + gap, &gap, sizeof gap);
+  CHECK_THROWS_AS(table_in(path, circle), FileError);
+  // the last place of a whole gap, and one byte more
+  for (const std::uint64_t last : {length - 16, length - 15}) {
+    std::string moved = whole;
+    const std::uint64_t no_more = 1, size = 16;
+    std::memcpy(moved.data() + heap + 16, &last, sizeof last);
+    std::memcpy(moved.data() + data + last, &no_more, sizeof no_more);
+    if (last == length - 16) {
+      std::memcpy(moved.data() + data + last + 8, &size, sizeof size);
+      CHECK(table_in(path, moved).size() == n);
+    } else {
+      CHECK_THROWS_AS(table_in(path, moved), FileError);
+    }
+  }
+}
+
 TEST_CASE("What has never been written is no number, or number -1, whatever the file would fill in") {
   const Place place;
   const auto path = place.path / "table.h5";
