@@ -72,6 +72,16 @@ std::optional<std::string> unfiltered(std::string bytes, std::span<const ChunkFi
   return bytes;
 }
 
+TableBox shared(const TableBox& a, const TableBox& b) {
+  TableBox both = a;
+  for (std::size_t k = 0; k < a.first.size(); ++k) {
+    const std::uint64_t end = std::min(a.first[k] + a.size[k], b.first[k] + b.size[k]);
+    both.first[k] = std::max(a.first[k], b.first[k]);
+    both.size[k] = end - std::min(end, both.first[k]);
+  }
+  return both;
+}
+
 TableBox chunks_touched_by(const TableBox& box, const Extent& chunk) {
   TableBox grid = box;
   for (std::size_t k = 0; k < chunk.size(); ++k) {
@@ -116,15 +126,9 @@ class Presence {
   }
 
   TableBox values_of(const TableBox& chunks) const {
-    TableBox values = box_;
-    for (std::size_t k = 0; k < chunk_.size(); ++k) {
-      const std::uint64_t begin = std::max(box_.first[k], chunks.first[k] * chunk_[k]),
-                          end = std::min(box_.first[k] + box_.size[k],
-                                         (chunks.first[k] + chunks.size[k]) * chunk_[k]);
-      values.first[k] = begin;
-      values.size[k] = end - begin;
-    }
-    return values;
+    TableBox values = chunks;
+    for (std::size_t k = 0; k < chunk_.size(); ++k) values.first[k] *= chunk_[k], values.size[k] *= chunk_[k];
+    return shared(box_, values);
   }
 
   const TableBox& box_;

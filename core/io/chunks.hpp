@@ -63,18 +63,15 @@ void for_each_place(const TableBox& box, Act act) {
   }
 }
 
+/// What two boxes share; nothing along an axis on which they do not meet.
+TableBox shared(const TableBox& a, const TableBox& b);
+
 /// Copies the values that two boxes share from the table of the one to that of the other.
 template <class T>
 void copy_shared(const TableBox& from_box, const T* from, const TableBox& to_box, T* to) {
-  TableBox shared = from_box;
-  for (std::size_t k = 0; k < shared.first.size(); ++k) {
-    shared.first[k] = std::max(from_box.first[k], to_box.first[k]);
-    const std::uint64_t end =
-        std::min(from_box.first[k] + from_box.size[k], to_box.first[k] + to_box.size[k]);
-    shared.size[k] = end - std::min(end, shared.first[k]);
-  }
-  const std::uint64_t row = std::exchange(shared.size.back(), std::min<std::uint64_t>(shared.size.back(), 1));
-  for_each_place(shared, [&](const Extent& place) {
+  TableBox rows = shared(from_box, to_box);
+  const std::uint64_t row = std::exchange(rows.size.back(), std::min<std::uint64_t>(rows.size.back(), 1));
+  for_each_place(rows, [&](const Extent& place) {
     std::copy_n(from + number_in(from_box, place), row, to + number_in(to_box, place));
   });
 }
