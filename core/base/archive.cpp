@@ -14,8 +14,8 @@ namespace {
 
 void Archive::block(void* data, std::size_t size) {
   if (!reading()) {
-    written_.append(reinterpret_cast<const char*>(&size), sizeof size);
-    if (size > 0) written_.append(static_cast<const char*>(data), size);
+    take_({reinterpret_cast<const char*>(&size), sizeof size});
+    if (size > 0) take_({static_cast<const char*>(data), size});
     return;
   }
   std::size_t found = 0;

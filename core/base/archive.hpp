@@ -16,19 +16,34 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace treejet {
 
 class Archive {
  public:
-  /// To be written.
-  Archive() = default;
+  /// To be written, piece by piece, to where they are taken.
+  explicit Archive(std::function<void(std::string_view piece)> take) : take_(std::move(take)) {}
   /// To be read; the bytes outlive the archive.
   explicit Archive(const std::string& bytes) : source_(&bytes) {}
+
+  /// The bytes of some objects. Whoever lists the members is asked twice, first for how many bytes there are:
+  /// a string that grows would hold those of a million beads up to three times.
+  template <class... T>
+  static std::string bytes_of(T&... objects) {
+    std::size_t length = 0;
+    Archive([&](std::string_view piece) { length += piece.size(); })(objects...);
+    std::string bytes;
+    bytes.reserve(length);
+    Archive([&](std::string_view piece) { bytes += piece; })(objects...);
+    return bytes;
+  }
 
   template <class... T>
   void operator()(T&... members) {
@@ -36,8 +51,6 @@ class Archive {
   }
 
   bool reading() const { return source_ != nullptr; }
-  /// What has been written.
-  std::string bytes() && { return std::move(written_); }
   /// All that was written has been read, else FileError.
   void expect_end() const;
 
@@ -104,7 +117,7 @@ class Archive {
 
   const std::string* source_ = nullptr;
   std::size_t at_ = 0;  ///< read up to here
-  std::string written_;
+  std::function<void(std::string_view)> take_;
 };
 
 }  // namespace treejet

@@ -219,16 +219,17 @@ void Checkpoints::write(Checkpoint& checkpoint,
 
 void Checkpoints::write(Checkpoint& checkpoint, const std::function<void(const WriteRecord&)>& give_records,
                         const char* name) const try {
-  Archive archive;
-  archive(checkpoint);
-  const std::string payload = std::move(archive).bytes();
-  const Seal seal{.length = payload.size(), .checksum = crc32(payload)};
+  Seal seal;
+  Archive([&seal](std::string_view piece) {
+    seal.length += piece.size();
+    seal.checksum = crc32(piece, seal.checksum);
+  })(checkpoint);
   std::error_code error;
   fs::remove(directory_ / unfinished, error);  // a link goes itself, not what it leads to
   OutputFile file(directory_ / unfinished, OutputFile::Existing::keep);
   file.write(title);
   file.write(bytes_of(seal));
-  file.write(payload);
+  Archive([&file](std::string_view piece) { file.write(piece); })(checkpoint);
   give_records([&file](const SubdomainRecord& record) {
     const auto& [first, count, bytes] = record;
     RecordSeal seal{first, count, bytes.size()};

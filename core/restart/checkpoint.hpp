@@ -36,9 +36,7 @@ class CheckpointParts {
       archive(object);
       archive.expect_end();
     } else {
-      Archive archive;
-      archive(object);
-      parts_.push_back({name, std::move(archive).bytes()});
+      parts_.push_back({name, Archive::bytes_of(object)});
     }
   }
 

@@ -36,9 +36,7 @@ std::string ChainDecomposition::portion(const Jet<3>& jet, int rank, Stretch bea
       some.carried = carried_(row, n);
     }
   }
-  Archive archive;
-  archive(some);
-  return ranks_.to_first(rank, std::move(archive).bytes());
+  return ranks_.to_first(rank, Archive::bytes_of(some));
 }
 
 void ChainDecomposition::in_portions(const Jet<3>& jet, std::int64_t most,
@@ -77,9 +75,10 @@ void ChainDecomposition::write(const Jet<3>& jet, const WriteRecord& write) cons
     if (ranks_.first()) write({beads.first, beads.size(), bytes});
   });
   for (int rank = 0; rank < ranks_.size(); ++rank) {
-    Archive archive;
+    std::string own;
+    Archive archive([&own](std::string_view piece) { own += piece; });
     if (own_state_ && rank == ranks_.rank()) own_state_(archive);
-    const std::string bytes = ranks_.to_first(rank, std::move(archive).bytes());
+    const std::string bytes = ranks_.to_first(rank, std::move(own));
     if (ranks_.first()) write({rank, 0, bytes});
   }
 }

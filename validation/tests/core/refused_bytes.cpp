@@ -20,9 +20,7 @@ namespace {
 
 template <class... T>
 std::string written(T... values) {
-  Archive archive;
-  archive(values...);
-  return std::move(archive).bytes();
+  return Archive::bytes_of(values...);
 }
 
 /// A checkpoint in a new directory, of a jet as a whipping jet's march begins with it.

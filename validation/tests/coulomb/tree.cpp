@@ -433,9 +433,7 @@ TEST_CASE("A tree read back goes on as it was; one of no order or of no shape is
   const PointSet set = random_cloud(500);
   TreeField tree;
   tree.arrange(set.view(), {.order = 4, .opening = 0.5, .leaf = 16, .block = 1}, {1});
-  Archive archive;
-  archive(tree);
-  const std::string bytes = std::move(archive).bytes();
+  const std::string bytes = Archive::bytes_of(tree);
   const auto read = [](const std::string& from) {
     TreeField other;
     Archive reading(from);
