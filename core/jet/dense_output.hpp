@@ -32,38 +32,36 @@ class DenseOutput {
 
   /// Beads first, first + 1, ... of the state at t, as many as `y` has rows.
   void at(double t, Eigen::Index first, State<D>& y) const {
-    const double h = end_.t - begin_.t, s = (t - begin_.t) / h, s2 = s * s, s3 = s2 * s;
-    // of position and velocity at the beginning and at the end, and of the accelerations
-    const double x = s3 * (10 - 15 * s + 6 * s2), v = 30 * s2 * (1 - 2 * s + s2) / h;
-    const std::array<double, 6> of_position = {1 - x,
-                                               x,
-                                               h * (s - s3 * (6 - 8 * s + 3 * s2)),
-                                               -h * s3 * (4 - 7 * s + 3 * s2),
-                                               h * h / 2 * (s2 - s3 * (3 - 3 * s + s2)),
-                                               h * h / 2 * s3 * (1 - 2 * s + s2)};
+    positions_at(t, first, y);
+    const double h = end_.t - begin_.t, s = (t - begin_.t) / h, s2 = s * s;
+    const double v = 30 * s2 * (1 - 2 * s + s2) / h;
     const std::array<double, 6> of_velocity = {-v,
                                                v,
                                                1 - s2 * (18 - 32 * s + 15 * s2),
                                                -s2 * (12 - 28 * s + 15 * s2),
                                                h * (s - s2 * (4.5 - 6 * s + 2.5 * s2)),
                                                h * s2 * (1.5 - 4 * s + 2.5 * s2)};
-    for (int k = 0; k < D; ++k) {
-      const auto from = [&](const State<D>& table, int column) { return table.col(column).data() + first; };
-      const std::array<const double*, 6> ends = {from(begin_.y, k),
-                                                 from(end_.y, k),
-                                                 from(begin_.y, velocity_column<D> + k),
-                                                 from(end_.y, velocity_column<D> + k),
-                                                 from(begin_.slope, velocity_column<D> + k),
-                                                 from(end_.slope, velocity_column<D> + k)};
-      weighted_sum(nullptr, of_position, ends, y.rows(), y.col(k).data());
-      weighted_sum(nullptr, of_velocity, ends, y.rows(), y.col(velocity_column<D> + k).data());
-    }
+    for (int k = 0; k < D; ++k)
+      weighted_sum(nullptr, of_velocity, ends(k, first), y.rows(), y.col(velocity_column<D> + k).data());
     const double c = s2 * (3 - 2 * s);
     for (Eigen::Index column = stress_column<D>; column < y.cols(); ++column) {
       const auto rows = [&](const State<D>& table) { return table.col(column).segment(first, y.rows()); };
       y.col(column) = (1 - c) * rows(begin_.y) + c * rows(end_.y) +
                       h * s * (1 - 2 * s + s2) * rows(begin_.slope) - h * s2 * (1 - s) * rows(end_.slope);
     }
+  }
+
+  /// The same of their positions alone; the other columns stay as they are.
+  void positions_at(double t, Eigen::Index first, State<D>& y) const {
+    const double h = end_.t - begin_.t, s = (t - begin_.t) / h, s2 = s * s, s3 = s2 * s;
+    const double x = s3 * (10 - 15 * s + 6 * s2);
+    const std::array<double, 6> of_position = {1 - x,
+                                               x,
+                                               h * (s - s3 * (6 - 8 * s + 3 * s2)),
+                                               -h * s3 * (4 - 7 * s + 3 * s2),
+                                               h * h / 2 * (s2 - s3 * (3 - 3 * s + s2)),
+                                               h * h / 2 * s3 * (1 - 2 * s + s2)};
+    for (int k = 0; k < D; ++k) weighted_sum(nullptr, of_position, ends(k, first), y.rows(), y.col(k).data());
   }
 
   /// Third derivative of the position of bead i at the end: what the next step may expect of its
@@ -77,6 +75,14 @@ class DenseOutput {
   }
 
  private:
+  /// What the quintic of a component is made of: position, velocity and acceleration at the two ends.
+  std::array<const double*, 6> ends(int component, Eigen::Index first) const {
+    const auto from = [&](const State<D>& table, int column) { return table.col(column).data() + first; };
+    const int velocity = velocity_column<D> + component;
+    return {from(begin_.y, component), from(end_.y, component),      from(begin_.y, velocity),
+            from(end_.y, velocity),    from(begin_.slope, velocity), from(end_.slope, velocity)};
+  }
+
   const SolutionPoint<D>& begin_;
   const SolutionPoint<D>& end_;
 

@@ -52,8 +52,11 @@ class Statistics {
     window_.release_speed += dt * last_release_speed_;
     if (!follows_path_) return;
     const double middle = from + dt / 2, off_middle = dt / 2 / std::numbers::sqrt3;
-    for (const double at : {middle - off_middle, middle + off_middle})
-      window_.path_length += dt / 2 * all.path_length(segment.at(at), nozzle_.position(at));
+    then_.resize(segment.first().rows(), segment.first().cols());
+    for (const double at : {middle - off_middle, middle + off_middle}) {
+      segment.positions_at(at, 0, then_);
+      window_.path_length += dt / 2 * all.path_length(then_, nozzle_.position(at));
+    }
   }
 
   void event(EventKind kind, const Jet<D>& jet) {
@@ -126,6 +129,7 @@ class Statistics {
   std::int64_t released_ = 0;
   double charge_landed_ = 0, next_arrival_from_ = 0;
   std::int64_t splits_ = 0, merges_ = 0;
+  State<D> then_;  ///< positions within a step
 };
 
 }  // namespace treejet

@@ -399,8 +399,11 @@ Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks, OwnTe
   const Columns& columns = composer.columns;
   const Nozzle<D> nozzle(p, columns);
   const std::vector<int> beads = composer.in_subdomains() ? std::vector<int>() : whole_jet(p);
-  Scene<D> scene{
-      initial_jet<D>(p, beads, columns), nozzle, Collector(p), {}, {}, {}, {}, nullptr, columns, {}, {}};
+  Scene<D> scene{.jet = initial_jet<D>(p, beads, columns),
+                 .nozzle = nozzle,
+                 .collector = Collector(p),
+                 .columns = columns,
+                 .threads = threads};
   scene.motion = std::make_unique<EquationsOfMotion<D>>(nozzle, std::move(law), std::move(local_terms),
                                                         std::move(coulomb), threads);
   for (auto& rate : column_rates) scene.motion->add_column(std::move(rate));

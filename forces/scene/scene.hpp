@@ -34,14 +34,15 @@ struct Scene {
   Jet<D> jet;  ///< the initial jet
   Nozzle<D> nozzle;
   Collector collector;
-  std::unique_ptr<EquationsOfMotion<D>> motion;
-  std::unique_ptr<MultirateMotion<D>> multirate;  ///< null where every term is evaluated at every stage
+  std::unique_ptr<EquationsOfMotion<D>> motion = {};
+  std::unique_ptr<MultirateMotion<D>> multirate = {};  ///< null where every term is evaluated at every stage
   /// Of a jet held in subdomains: who holds what, and its motion. Null where every rank holds all of it.
-  std::unique_ptr<Decomposition<D>> subdomains;
-  std::unique_ptr<RightHandSide<D>> distributed_motion;
+  std::unique_ptr<Decomposition<D>> subdomains = {};
+  std::unique_ptr<RightHandSide<D>> distributed_motion = {};
   const FieldErrorReport* distributed_error = nullptr;
   Columns columns;  ///< added to the state
-  std::vector<Composed> composed, left_out;
+  std::vector<Composed> composed = {}, left_out = {};
+  Threads threads = {};
 
   /// The right-hand side to step with.
   RightHandSide<D>& right_hand_side() {

@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "core/base/error.hpp"
+#include "core/base/freed_memory.hpp"
 #include "core/base/lines.hpp"
 #include "core/commands/command_line.hpp"
 #include "core/commands/companions.hpp"
@@ -86,6 +87,7 @@ int command(int argc, char** argv, const Ranks& ranks, const OwnPhysics& own) {
 
 int front_door(int argc, char** argv, const OwnPhysics& own) {
   occupy_standard_descriptors();
+  keep_freed_memory();
   std::signal(SIGXFSZ, SIG_IGN);  // the failed write tells, by name of the file
   Ranks ranks;
   const auto fail = [&](int exit_code, const char* what) {

@@ -22,11 +22,21 @@ struct System {
   const Collector& collector;
   Decomposition<D>& decomposition = undivided<D>;
   Columns columns = {};  ///< that the scene adds to the state
+  Threads threads = {};  ///< that the algebra of long tables is shared out among
 };
+
+inline RowSharing rows_shared(Threads threads) {
+  return [threads](Eigen::Index rows, const auto& of_stretch) {
+    constexpr int stretch = 4096;
+    for_each_block(threads, {0, static_cast<int>(rows)}, stretch,
+                   [&](Rows some) { of_stretch(some.first, some.size()); });
+  };
+}
 
 template <int D>
 System<D> system(Scene<D>& scene, RightHandSide<D>& right_hand_side) {
-  return {scene.jet, right_hand_side, scene.nozzle, scene.collector, scene.decomposition(), scene.columns};
+  return {scene.jet,     right_hand_side, scene.nozzle, scene.collector, scene.decomposition(),
+          scene.columns, scene.threads};
 }
 
 template <int D>
@@ -56,7 +66,9 @@ class Integration {
                .stop_here = std::move(stop_here),
                .decomposition = system.decomposition,
                .spacing = spacing_ ? &*spacing_ : nullptr,
-               .end_in_sight = std::move(end_in_sight)}) {
+               .end_in_sight = std::move(end_in_sight),
+               .rows_shared = rows_shared(system.threads)}) {
+    stepper_->rows_shared = rows_shared(system.threads);
     if (spacing_ && system.jet.id.size() == 0) number_beads(system.jet, system.decomposition);
   }
 

@@ -67,7 +67,16 @@ class EmbeddedRungeKutta final : public Stepper<D> {
       k[n++] = j == 0 ? first.data() : k_[j].data();
     }
     out.resize(first.rows(), first.cols());
-    weighted_sum(y ? y->data() : nullptr, w, k, first.size(), out.data());
+    const auto numbers = [&](Eigen::Index begin, Eigen::Index n) {  // of a table, column after column
+      std::array<const double*, count> from = k;
+      for (const double*& slope : from) slope += begin;
+      weighted_sum(y ? y->data() + begin : nullptr, w, from, n, out.data() + begin);
+    };
+    if (first.rows() < rows_worth_sharing) return numbers(0, first.size());
+    this->rows_shared(first.rows(), [&](Eigen::Index row, Eigen::Index rows) {
+      for (Eigen::Index column = 0; column < first.cols(); ++column)
+        numbers(column * first.rows() + row, rows);
+    });
   }
 
   State<D> stage_;

@@ -15,7 +15,7 @@ class Euler final : public Stepper<D> {
 
   void step(RightHandSide<D>&, const Jet<D>&, const SolutionPoint<D>& from, double h,
             State<D>& next) override {
-    next = from.y + h * from.slope;
+    this->set(next, from.y + h * from.slope);
   }
 };
 

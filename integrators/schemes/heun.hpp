@@ -18,9 +18,9 @@ class Heun final : public Stepper<D> {
   void step(RightHandSide<D>& f, const Jet<D>& jet, const SolutionPoint<D>& from, double h,
             State<D>& next) override {
     const auto& k1 = from.slope;
-    stage_ = from.y + h * k1;
+    this->set(stage_, from.y + h * k1);
     f(jet, from.t + h, stage_, k2_);
-    next = from.y + h / 2 * (k1 + k2_);
+    this->set(next, from.y + h / 2 * (k1 + k2_));
   }
 
  private:

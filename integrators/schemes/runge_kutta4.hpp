@@ -21,13 +21,13 @@ class RungeKutta4 final : public Stepper<D> {
   void step(RightHandSide<D>& f, const Jet<D>& jet, const SolutionPoint<D>& from, double h,
             State<D>& next) override {
     const auto& k1 = from.slope;
-    stage_ = from.y + h / 2 * k1;
+    this->set(stage_, from.y + h / 2 * k1);
     f(jet, from.t + h / 2, stage_, k2_);
-    stage_ = from.y + h / 2 * k2_;
+    this->set(stage_, from.y + h / 2 * k2_);
     f(jet, from.t + h / 2, stage_, k3_);
-    stage_ = from.y + h * k3_;
+    this->set(stage_, from.y + h * k3_);
     f(jet, from.t + h, stage_, k4_);
-    next = from.y + h / 6 * (k1 + 2 * k2_ + 2 * k3_ + k4_);
+    this->set(next, from.y + h / 6 * (k1 + 2 * k2_ + 2 * k3_ + k4_));
   }
 
  private:

@@ -1,11 +1,12 @@
 #pragma once
 /// A one-step scheme for dy/dt = f(t, y): whole-table algebra in which no bead, force, thread or rank is
-/// visible.
+/// visible. What it sets by `set` is shared out by rows as the run says.
 ///
 /// `from` holds state and slope at the beginning, so the first stage is never computed twice. `next` is
 /// resized. A scheme with an embedded partner leaves in `error` the difference of the two results, else
 /// `error` is empty.
 
+#include "core/base/row_sharing.hpp"
 #include "core/jet/dense_output.hpp"
 #include "core/jet/right_hand_side.hpp"
 
@@ -23,6 +24,21 @@ class Stepper {
   virtual const State<D>* slope_at_end() const { return nullptr; }
 
   State<D> error;
+  RowSharing rows_shared = all_at_once;
+
+ protected:
+  /// out = value, an expression of tables of one shape.
+  template <class Expression>
+  void set(State<D>& out, const Expression& value) const {
+    if (value.rows() < rows_worth_sharing) {
+      out = value;
+      return;
+    }
+    out.resize(value.rows(), value.cols());
+    rows_shared(value.rows(), [&](Eigen::Index first, Eigen::Index count) {
+      out.middleRows(first, count) = value.middleRows(first, count);
+    });
+  }
 };
 
 }  // namespace treejet

@@ -2,9 +2,12 @@
 
 #include "integrators/march/diagnosis.hpp"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 
 #include "core/base/error.hpp"
+#include "integrators/run/integration.hpp"
 #include "validation/support/scenes.hpp"
 
 using namespace treejet;
@@ -51,6 +54,28 @@ TEST_CASE("The youngest bead may swing behind the nozzle by an element, not be t
   CHECK(!state_check<3>(before, positions({{2, 0, 0}, {-0.9, 0, 0}}), l_step, 0));
   CHECK_THAT(state_check<3>(before, positions({{2, 0, 0}, {-1.1, 0, 0}}), l_step, 0).value(),
              Contains("bead 1 has been thrown behind the nozzle"));
+}
+
+TEST_CASE("Whoever looks at which rows of a long jet, the oldest bead that is wrong is named") {
+  const Eigen::Index n = rows_worth_sharing + 5000;
+  State<3> before(n);
+  before.setZero();
+  before.col(0) = Eigen::ArrayXd::LinSpaced(n, double(n), 1);
+  for (int threads : {1, 2, 3, 4}) {
+    const RowSharing shared = rows_shared({threads});
+    State<3> y = before;
+    CHECK(!state_check<3>(before, y, l_step, 0, shared));
+    for (const Eigen::Index swapped : {n - 2, Eigen::Index{12'287}, Eigen::Index{7}}) {  // 12288 is a border
+      y(swapped, 0) = y(swapped + 1, 0) - 0.5;
+      CHECK_THAT(state_check<3>(before, y, l_step, 0, shared).value(),
+                 Contains(fmt::format("beads {} and {} have swapped", swapped, swapped + 1)));
+    }
+    for (const Eigen::Index lost : {n - 1, Eigen::Index{9000}}) {
+      y(lost, stress_column<3>) = std::numeric_limits<double>::quiet_NaN();
+      CHECK_THAT(state_check<3>(before, y, l_step, 0, shared).value(),
+                 Contains(fmt::format("bead {} ", lost)) && Contains("no longer finite"));
+    }
+  }
 }
 
 TEST_CASE("A bead that the nozzle lets go half an element too late stops the run") {
