@@ -4,13 +4,14 @@
 
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "core/jet/noise.hpp"
 #include "core/jet/schemes.hpp"
 #include "core/jet/stiffness.hpp"
 #include "forces/distributed/distributed_motion.hpp"
 #include "forces/scene/coulomb_settings.hpp"
+#include "forces/scene/initial_jet.hpp"
+#include "forces/scene/stress_law.hpp"
 #include "forces/terms/air_drag.hpp"
 #include "forces/terms/bending.hpp"
 #include "forces/terms/constitutive.hpp"
@@ -18,12 +19,6 @@
 #include "forces/terms/evaporation.hpp"
 #include "forces/terms/external_field.hpp"
 #include "forces/terms/gravity.hpp"
-#include "forces/terms/laws/elastoviscoplastic.hpp"
-#include "forces/terms/laws/fene_p.hpp"
-#include "forces/terms/laws/giesekus.hpp"
-#include "forces/terms/laws/inelastic.hpp"
-#include "forces/terms/laws/kelvin_voigt.hpp"
-#include "forces/terms/laws/oldroyd_b.hpp"
 #include "forces/terms/magnetic_field.hpp"
 #include "forces/terms/random_force.hpp"
 #include "forces/terms/slender_self_field.hpp"
@@ -36,36 +31,6 @@
 namespace treejet {
 
 namespace {
-
-/// A jet that ends for good at its free end has half a cell there. With insertion the end is one of many: a
-/// whole bead, as the next one will be.
-bool ends_in_half_a_cell(const Parameters& p) {
-  return p.self_field == SelfField::slender && !p.inserting;
-}
-
-/// Beads at x_i = initial length - i l_step, at the nozzle velocity and stress: those with these numbers.
-template <int D>
-Jet<D> initial_jet(const Parameters& p, const std::vector<int>& beads, const Columns& added) {
-  const Scales s = scales(p);
-  const auto n = static_cast<Eigen::Index>(beads.size());
-  Vec<D> r = Vec<D>::Zero(), v = Vec<D>::Zero();
-  v[0] = inlet_velocity(p) / s.velocity;
-  Jet<D> jet;
-  jet.y.resize(n, own_columns<D> + static_cast<Eigen::Index>(added.size()));
-  jet.mass.setOnes(n);
-  jet.charge.setOnes(n);
-  jet.volume.setOnes(n);
-  jet.held = p.inserting && p.feed == Feed::flow;  // an empty bead
-  for (Eigen::Index i = 0; i < n; ++i) {
-    r[0] = (initial_elements(p) - beads[static_cast<std::size_t>(i)]) * s.l_step / s.length;
-    if (beads[static_cast<std::size_t>(i)] == 0 && ends_in_half_a_cell(p)) jet.mass[i] = jet.charge[i] = 0.5;
-    jet.y.row(i).template head<own_columns<D>>() << r.transpose().array(), v.transpose().array(),
-        p.nozzle_stress / s.stress;
-  }
-  for (std::size_t k = 0; k < added.size(); ++k)
-    jet.y.col(own_columns<D> + static_cast<Eigen::Index>(k)).setConstant(added[k].at_birth);
-  return jet;
-}
 
 /// The deck's cutoff is a length of jet as it leaves the nozzle, hence a number of points; without one all
 /// pairs count.
@@ -82,10 +47,8 @@ class Composer {
   std::unique_ptr<StressLaw<D>> stress_law() {
     using enum StressLawKind;
     const StressLawKind kind = treejet::stress_law(p_);
-    const bool rounded = kind == maxwell && (p_.hbfluid || p_.yield_stress > 0);
-    auto law = rounded          ? jetspin_herschel_bulkley()
-               : p_.evaporation ? std::make_unique<DryingStress<D>>(Evaporation(p_), kind == maxwell)
-                                : stress_law_of(kind);
+    const bool rounded = is_jetspin_herschel_bulkley(p_);
+    auto law = stress_law_of<D>(p_);
     const char* why = kind != maxwell  ? (p_.kvfluid ? "kvfluid yes" : "stress law")
                       : p_.evaporation ? "evaporation yes"
                       : !rounded       ? "always"
@@ -291,38 +254,6 @@ class Composer {
         [&] { return std::make_unique<RandomForce<D>>(n); }, "random force");
   }
 
-  std::unique_ptr<StressLaw<D>> stress_law_of(StressLawKind kind) const {
-    switch (kind) {
-      case StressLawKind::maxwell:
-        return std::make_unique<Maxwell<D>>();
-      case StressLawKind::kelvin_voigt:
-        return element_law(KelvinVoigt{});
-      case StressLawKind::oldroyd_b:
-        return element_law(OldroydB{});
-      case StressLawKind::giesekus:
-        return element_law(Giesekus{p_.mobility.value()});
-      case StressLawKind::fene_p:
-        return element_law(FeneP::of_length(p_.extensibility.value()));
-      case StressLawKind::power_law:
-        return element_law(Inelastic{});
-      case StressLawKind::herschel_bulkley:
-        return element_law(
-            Elastoviscoplastic{p_.yield_stress / scales(p_).stress, scaled_consistency(p_), p_.hb_index});
-    }
-    throw std::logic_error("no such stress law");
-  }
-
-  template <class Law>
-  static std::unique_ptr<StressLaw<D>> element_law(const Law& law) {
-    return std::make_unique<ElementLaw<D, Law>>(law);
-  }
-
-  std::unique_ptr<StressLaw<D>> jetspin_herschel_bulkley() const {
-    const Scales s = scales(p_);
-    return std::make_unique<HerschelBulkley<D>>(p_.yield_stress / s.stress, scaled_consistency(p_),
-                                                p_.hb_index, small_strain_rate(p_) * s.time);
-  }
-
   /// Maxwell's law has no column, and what dries does not resist.
   BendingMoment bending() const {
     const Scales s = scales(p_);
@@ -359,12 +290,6 @@ class Composer {
   bool smooth_stress_ = true;
 };
 
-std::vector<int> whole_jet(const Parameters& p) {
-  std::vector<int> beads(static_cast<std::size_t>(initial_elements(p)));
-  std::iota(beads.begin(), beads.end(), 0);
-  return beads;
-}
-
 }  // namespace
 
 void distribute(Scene<3>& scene, const Parameters& p, int beads, const JetOfRows& jet_of, Threads threads,
@@ -398,7 +323,7 @@ Scene<D> compose(const Parameters& p, Threads threads, const Ranks& ranks, OwnTe
   composer.boundaries();
   const Columns& columns = composer.columns;
   const Nozzle<D> nozzle(p, columns);
-  const std::vector<int> beads = composer.in_subdomains() ? std::vector<int>() : whole_jet(p);
+  const std::vector<int> beads = composer.in_subdomains() ? std::vector<int>() : initial_beads(p);
   Scene<D> scene{.jet = initial_jet<D>(p, beads, columns),
                  .nozzle = nozzle,
                  .collector = Collector(p),
