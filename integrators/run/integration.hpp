@@ -25,6 +25,7 @@ struct System {
   Threads threads = {};  ///< that the algebra of long tables is shared out among
 };
 
+/// Whole stretches of 4096 rows to each thread.
 inline RowSharing rows_shared(Threads threads) {
   return [threads](Eigen::Index rows, const auto& of_stretch) {
     constexpr int stretch = 4096;
