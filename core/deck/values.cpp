@@ -238,8 +238,11 @@ std::string read_quantity(const Directive& d, Arguments arguments, double& targe
 std::string stuck_unit(const Directive& d, std::string_view word) {
   const std::size_t digits = number_length(word);
   if (d.unit.empty() || digits == 0 || digits == word.size() || !unit(word.substr(digits))) return {};
-  return fmt::format("{}found {}; did you mean {} {}?", expected(d), quoted(word), word.substr(0, digits),
-                     word.substr(digits));
+  const std::string_view number = word.substr(0, digits), rest = word.substr(digits);
+  const bool plain = std::all_of(rest.begin(), rest.end(), [](char c) { return c > ' ' && c <= '~'; });
+  return fmt::format("{}found {}; {}", expected(d), quoted(word),
+                     plain ? fmt::format("did you mean {} {}?", number, rest)
+                           : fmt::format("a blank is missing behind {}", number));
 }
 
 std::string read(const Directive& d, Arguments a, double& target) {

@@ -79,6 +79,7 @@ inline const std::vector<Broken> broken_decks = {
     {"viscosity 20.", "viscosity 20,5", {"'20,5'", "did you mean 20.5?"}},
     {"viscosity 20.", "viscosity 1.0-8", {"'1.0-8'", "did you mean 1.0d-8?"}},
     {"viscosity 20.", "viscosity 20.P", {"'20.P'", "did you mean 20. P?"}},
+    {"viscosity 20.", "viscosity 20.\xce\xbcP", {"'20.\\xce\\xbcP'", "a blank is missing behind 20."}},
     {"viscosity 20.", "viscosity 1..5", {"did you mean 1.5?"}},
     {"viscosity 20.", "viscosity 0x10", {"expected a real number", "'0x10'"}},
     {"viscosity 20.", "viscosity .", {"expected a real number", "'.'"}},
