@@ -12,12 +12,20 @@ namespace treejet {
 using RowSharing = std::function<void(
     Eigen::Index rows, const std::function<void(Eigen::Index first, Eigen::Index count)>& of_stretch)>;
 
-/// Tables with fewer rows are not worth it.
-constexpr Eigen::Index rows_worth_sharing = 16'384;
-
 inline void all_at_once(Eigen::Index rows,
                         const std::function<void(Eigen::Index first, Eigen::Index count)>& of_stretch) {
   of_stretch(0, rows);
+}
+
+/// Tables with fewer rows are not worth it, and are one stretch.
+constexpr Eigen::Index rows_worth_sharing = 16'384;
+
+template <class OfStretch>
+void for_each_stretch(const RowSharing& rows_shared, Eigen::Index rows, const OfStretch& of_stretch) {
+  if (rows < rows_worth_sharing)
+    of_stretch(0, rows);
+  else
+    rows_shared(rows, of_stretch);
 }
 
 }  // namespace treejet

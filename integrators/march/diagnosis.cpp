@@ -31,15 +31,11 @@ std::string likely_cause(const State<D>& before, Eigen::Index bead) {
 template <class Search>
 std::optional<Eigen::Index> first_row(Eigen::Index rows, const RowSharing& rows_shared, Search first_wrong) {
   std::atomic<Eigen::Index> least = rows;
-  const auto look = [&](Eigen::Index first, Eigen::Index count) {
+  for_each_stretch(rows_shared, rows, [&](Eigen::Index first, Eigen::Index count) {
     const Eigen::Index found = first_wrong(first, first + count);
     for (Eigen::Index known = least; found < known && !least.compare_exchange_weak(known, found);) {
     }
-  };
-  if (rows < rows_worth_sharing)
-    look(0, rows);
-  else
-    rows_shared(rows, look);
+  });
   return least < rows ? std::optional<Eigen::Index>(least) : std::nullopt;
 }
 

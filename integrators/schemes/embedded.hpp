@@ -72,8 +72,8 @@ class EmbeddedRungeKutta final : public Stepper<D> {
       for (const double*& slope : from) slope += begin;
       weighted_sum(y ? y->data() + begin : nullptr, w, from, n, out.data() + begin);
     };
-    if (first.rows() < rows_worth_sharing) return numbers(0, first.size());
-    this->rows_shared(first.rows(), [&](Eigen::Index row, Eigen::Index rows) {
+    for_each_stretch(this->rows_shared, first.rows(), [&](Eigen::Index row, Eigen::Index rows) {
+      if (rows == first.rows()) return numbers(0, first.size());
       for (Eigen::Index column = 0; column < first.cols(); ++column)
         numbers(column * first.rows() + row, rows);
     });

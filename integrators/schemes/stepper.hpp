@@ -30,13 +30,12 @@ class Stepper {
   /// out = value, an expression of tables of one shape.
   template <class Expression>
   void set(State<D>& out, const Expression& value) const {
-    if (value.rows() < rows_worth_sharing) {
-      out = value;
-      return;
-    }
     out.resize(value.rows(), value.cols());
-    rows_shared(value.rows(), [&](Eigen::Index first, Eigen::Index count) {
-      out.middleRows(first, count) = value.middleRows(first, count);
+    for_each_stretch(rows_shared, value.rows(), [&](Eigen::Index first, Eigen::Index count) {
+      if (count == value.rows())
+        out = value;
+      else
+        out.middleRows(first, count) = value.middleRows(first, count);
     });
   }
 };
