@@ -33,14 +33,10 @@ class Archive {
   /// To be read; the bytes outlive the archive.
   explicit Archive(const std::string& bytes) : source_(&bytes) {}
 
-  /// The bytes of some objects. Whoever lists the members is asked twice, first for how many bytes there are:
-  /// a string that grows would hold those of a million beads up to three times.
+  /// The bytes of some objects.
   template <class... T>
   static std::string bytes_of(T&... objects) {
-    std::size_t length = 0;
-    Archive([&](std::string_view piece) { length += piece.size(); })(objects...);
     std::string bytes;
-    bytes.reserve(length);
     Archive([&](std::string_view piece) { bytes += piece; })(objects...);
     return bytes;
   }

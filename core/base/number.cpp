@@ -121,7 +121,7 @@ bool spells_no_finite_number(std::string_view written) {
 std::string quoted(std::string_view word) {
   std::string shown;
   for (const char c : word.substr(0, longest_word_worth_mending)) {
-    if (c >= ' ' && c <= '~')
+    if (is_printable(c))
       shown += c;
     else
       shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));

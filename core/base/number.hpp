@@ -24,6 +24,11 @@ Reading<int> integer(std::string_view word);
 /// How many letters of the word, from its start on, are a well-formed number: 3 of "20.cm", 0 of "cm".
 std::size_t number_length(std::string_view word);
 
+/// Printable ASCII.
+constexpr bool is_printable(char c) {
+  return c >= ' ' && c <= '~';
+}
+
 /// A word of unknown origin made fit for a message: quoted, shortened, bytes that are not printable ASCII as
 /// \xNN.
 std::string quoted(std::string_view word);

@@ -239,7 +239,7 @@ std::string stuck_unit(const Directive& d, std::string_view word) {
   const std::size_t digits = number_length(word);
   if (d.unit.empty() || digits == 0 || digits == word.size() || !unit(word.substr(digits))) return {};
   const std::string_view number = word.substr(0, digits), rest = word.substr(digits);
-  const bool plain = std::all_of(rest.begin(), rest.end(), [](char c) { return c > ' ' && c <= '~'; });
+  const bool plain = std::all_of(rest.begin(), rest.end(), is_printable);
   return fmt::format("{}found {}; {}", expected(d), quoted(word),
                      plain ? fmt::format("did you mean {} {}?", number, rest)
                            : fmt::format("a blank is missing behind {}", number));

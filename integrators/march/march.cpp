@@ -201,7 +201,7 @@ bool March<D>::to(double end) {
     }
     const double reach = attempt(std::min(end, piece_end_));
     halt_if(state_check<D>(jet_.y, next_.y, parts_.nozzle.l_step(), parts_.decomposition.before(jet_),
-                           parts_.rows_shared),
+                           parts_.stepper.rows_shared),
             next_.t);
     evaluate(next_, parts_.stepper.slope_at_end());
     commit(parts_.events == EventRule::step ? std::nullopt : located_event(reach));

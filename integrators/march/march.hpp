@@ -54,7 +54,6 @@ class March {
     const Spacing<D>* spacing = nullptr;  ///< null: elements are neither split nor merged
     /// Told once, before the first step that another end might have made longer.
     std::function<void()> end_in_sight = {};
-    RowSharing rows_shared = all_at_once;
   };
 
   explicit March(const Parts& parts)

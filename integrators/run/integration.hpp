@@ -67,8 +67,7 @@ class Integration {
                .stop_here = std::move(stop_here),
                .decomposition = system.decomposition,
                .spacing = spacing_ ? &*spacing_ : nullptr,
-               .end_in_sight = std::move(end_in_sight),
-               .rows_shared = rows_shared(system.threads)}) {
+               .end_in_sight = std::move(end_in_sight)}) {
     stepper_->rows_shared = rows_shared(system.threads);
     if (spacing_ && system.jet.id.size() == 0) number_beads(system.jet, system.decomposition);
   }
