@@ -5,6 +5,9 @@ namespace treejet {
 namespace {
 
 constexpr std::uint64_t one_job = std::uint64_t{1} << 32;
+/// Of the end of the team. It is told in the word that threads sleep on: with a flag beside it a thread that
+/// has looked at the flag already, not yet at the job, would sleep for ever.
+constexpr std::uint64_t over = ~std::uint64_t{0};
 /// Looks at what is waited for, others being let go ahead, before a thread sleeps: ten microseconds or so
 /// where nobody else wants the core.
 constexpr int looks = 20;
@@ -31,8 +34,7 @@ bool soon(Condition holds) {
 }  // namespace
 
 Team::~Team() {
-  closing_ = true;
-  job_and_task_ += one_job;
+  job_and_task_ = over;
   job_and_task_.notify_all();
   for (std::thread& thread : threads_) thread.join();
 }
@@ -74,9 +76,10 @@ void Team::take_part() {
 
 void Team::work(int number) {
   at_start_(number);
-  for (std::uint64_t seen = 0; !closing_;) {
+  while (true) {
     if (number <= helpers_) take_part();
-    seen = job_and_task_;
+    const std::uint64_t seen = job_and_task_;
+    if (seen == over) return;
     if (is_open(seen) && task(seen) < count_ && number <= helpers_) continue;
     if (!soon([&] { return job(job_and_task_) != job(seen); })) job_and_task_.wait(seen);
   }

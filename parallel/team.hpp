@@ -32,11 +32,10 @@ class Team {
   void take_part();
   void work(int number);
 
-  /// The number of the job (odd: none can be taken), and of the next task.
+  /// The number of the job (odd: none can be taken), and of the next task; all ones at the end of the team.
   std::atomic<std::uint64_t> job_and_task_{0};
   std::atomic<const std::function<void(int)>*> f_{nullptr};
   std::atomic<int> count_{0}, helpers_{0}, done_{0};
-  std::atomic<bool> closing_{false};
   std::mutex busy_;
   std::function<void(int)> at_start_;
   std::vector<std::thread> threads_;
