@@ -175,7 +175,7 @@ TEST_CASE("The error falls with the order and with the opening, with and without
     }
 }
 
-TEST_CASE("The promised error is never exceeded") {
+TEST_CASE("The promised error is never exceeded", "[slow]") {
   struct Case {
     const char* name;
     PointSet set;

@@ -30,7 +30,10 @@ Moments moments(const State<3>& y) {
 /// So many free beads, all at the same velocity and too far apart to meet.
 Jet<3> free_beads(int n, double v) {
   Jet<3> jet;
-  for (int i = n; i >= 1; --i) append<3>(jet, {Vec<3>(100 * i, 0, 0), Vec<3>(v, v, v)});
+  jet.y = State<3>::Zero(n, own_columns<3>);
+  jet.y.col(0) = Eigen::ArrayXd::LinSpaced(n, 100. * n, 100);
+  jet.y.middleCols<3>(velocity_column<3>) = v;
+  jet.mass = jet.charge = jet.volume = Eigen::ArrayXd::Ones(n);
   return jet;
 }
 

@@ -87,7 +87,8 @@ TEST_CASE("Two rates give the refined jet that one rate gives, and all that is f
 
 TEST_CASE(
     "A refined jet of slender tubes goes at two rates where it goes at one, with less than half of the "
-    "sums") {
+    "sums",
+    "[slow]") {
   const std::vector<std::string> deck = {"model slender", "flow rate 0.01736", "dynamic refinement yes",
                                          "dynamic refinement tolerance 1.d-2"};
   constexpr double end = 0.02;
