@@ -154,6 +154,20 @@ TEST_CASE("Neighbours joined have the moments of all their points, in a ball tha
   }
 }
 
+TEST_CASE("A ball closes a cell to the nearest leaf that it may hold, and to none that is nearer") {
+  constexpr double opening = 0.5, radius = 1, leaf = 0.1, cell = 0.2;
+  const Ball ball{{3, -1, 2}, radius, leaf};
+  // the nearest leaf lies on the ball: the cell is far from it beyond (cell + leaf) / opening
+  const double border = radius + (cell + leaf) / opening;
+  const BoundaryTree alone({&ball, 1}, opening);
+  for (const double way : {border * (1 - 1e-9), border * (1 + 1e-9)}) {
+    // (2, 1, 2) / 3 has length 1
+    const double centre[3] = {3 + way * 2 / 3, -1 + way / 3, 2 + way * 2 / 3};
+    CHECK(closes(ball, centre, cell, opening) == (way > border));
+    CHECK(alone.closes(centre, cell) == (way > border));
+  }
+}
+
 TEST_CASE(
     "Eight times as many ranks meet hardly more summaries, where a table would be eight times as long") {
   const PointSet all = coil(32'000, 4, 1);
