@@ -299,6 +299,18 @@ TEST_CASE("Two elements merge where together they are shorter than half the long
   CHECK_FALSE(spacing(2).refinement(straight_jet(halves, 0.9)).empty());
 }
 
+TEST_CASE(
+    "A part of a jet knows which beads merge if one of its own before them does not: pairs begin anew "
+    "there") {
+  Jet<3> part = straight_jet(std::vector<double>(24, 0.25), 0.1);
+  part.from_oldest = false;
+  CHECK_FALSE(spacing(10).asking(RefinementPass::Kind::merge, part, {6, 12}).has_value());
+  part.volume[3] = 0.3;  // no merge at either of its beads, 3 and 4
+  const auto told = spacing(10).asking(RefinementPass::Kind::merge, part, {6, 12});
+  REQUIRE(told.has_value());
+  CHECK(*told == std::vector<Eigen::Index>{7, 9, 11});  // after 5
+}
+
 TEST_CASE("Elements are not split where their halves would be shorter than twice their radius") {
   // a bead of volume 1 and length 10: radius 0.1 / sqrt(10)
   CHECK_FALSE(spacing(2).refinement(straight_jet(std::vector<double>(12, 1), 10)).empty());
