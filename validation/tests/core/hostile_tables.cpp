@@ -259,6 +259,7 @@ TEST_CASE(
   const std::string with_sum = "abcde\xc7\x29\xf0\x4f";
   CHECK(plain(with_sum, {sum}, 0, 5) == "abcde");
   CHECK_FALSE(plain("abcdf" + with_sum.substr(5), {sum}, 0, 5));
+  CHECK_FALSE(plain("cdabe" + with_sum.substr(5), {sum}, 0, 5));  // the first sum is the same
   CHECK_FALSE(plain("123", {sum}, 0, 0));
 }
 
