@@ -109,7 +109,7 @@ std::vector<std::string> checkpoints() {
   std::vector<std::string> all;
   for (const char* name : {"checkpoint", "checkpoint.end"})
     for (auto& one : files_of_runs(name)) all.push_back(std::move(one));
-  const Place place;
+  const ScratchDirectory place;
   Checkpoint in_records{"program", "deck", "finish\n", {"tolerance 1.d-5"}, 0.1, 2, {}, {}};
   Checkpoints(place.path, OutputFile::Existing::keep).write(in_records, [](const WriteRecord& write) {
     write({0, 2, "two beads"});

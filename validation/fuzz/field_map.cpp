@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint64_t n = 4;
 
 std::string in_hdf5() {
-  const Place place;
+  const ScratchDirectory place;
   Hdf5File file(place.path / "map.h5", Hdf5File::Access::create);
   const std::vector<double> volts(n * n * n, 7), three{0.1, 0.2, 0.3};
   file.dataset("/potential", {.extent = {n, n, n}, .chunk = {n, n, n}});

@@ -26,7 +26,7 @@ void write(const std::filesystem::path& file, const PointTable& points) {
 }  // namespace
 
 std::vector<std::string> tables_of_points() {
-  const Place place;
+  const ScratchDirectory place;
   PointTable points;
   for (int k = 0; k < 5; ++k) {
     for (auto& r : points.r) r.push_back(std::sqrt(2 + k));

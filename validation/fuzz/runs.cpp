@@ -63,7 +63,7 @@ void run(const Deck& deck, const fs::path& directory, int steps) {
 
 /// Runs all kinds, each to its end, stopped half way, and stopped at once; returns their directories.
 std::vector<fs::path> runs() {
-  static const Place place;
+  static const ScratchDirectory place;
   std::vector<fs::path> directories;
   for (const Kind& kind : kinds()) {
     std::vector<std::string> overrides = kind.overrides;

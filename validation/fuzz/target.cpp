@@ -46,7 +46,7 @@ bool is_read(const std::function<void()>& read) {
 }
 
 const std::filesystem::path& as_file(std::string_view bytes) {
-  static const Place place;
+  static const ScratchDirectory place;
   static const std::filesystem::path file = place.path / "input";
   std::ofstream(file, std::ios::binary | std::ios::trunc)
       .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

@@ -29,7 +29,7 @@ void promises(Report& report, ResultTable& table, const NamedSet& kind, int n) {
                  std::int64_t{0}, std::string(), 0., 0., 0., 0., nanoseconds * direct / n, 1.});
       continue;
     }
-    const Trial trial = tried(set, s);
+    const CoulombTrial trial = tried(set, s);
     table.row({kind.name, std::int64_t{n}, accuracy, tree_kind(s), std::int64_t{s.order}, s.opening,
                std::int64_t{s.leaf}, std::string(s.single ? "single" : "double"), choice.expected_error,
                trial.error.l2, trial.error.to_rms.p99, trial.error.to_rms.max,
@@ -44,7 +44,7 @@ void shapes(Report& report, ResultTable& table, const NamedSet& kind, int n) {
   const PointSet set = kind.of(n);
   const CoulombReport usual = chosen(set, {.method = CoulombMethod::tree, .accuracy = 1e-5});
   const auto row = [&](const std::string& way, const TreeShape& shape) {
-    const Trial trial = tried(set, shape);
+    const CoulombTrial trial = tried(set, shape);
     table.row({kind.name, std::int64_t{n}, way, std::int64_t{shape.order}, shape.opening,
                std::int64_t{shape.leaf}, trial.error.l2, trial.error.to_rms.max,
                nanoseconds * trial.seconds / n, double(trial.interactions.pairs) / n,

@@ -69,7 +69,7 @@ void growth(Report& report, const std::vector<NamedSet>& kinds) {
         const CoulombReport choice = chosen(set, {.method = CoulombMethod::tree, .accuracy = accuracy});
         const double direct = direct_seconds(set);
         if (choice.direct) continue;
-        const Trial trial = tried(set, choice.shape);
+        const CoulombTrial trial = tried(set, choice.shape);
         times.row({kind.name, accuracy, std::int64_t{size}, std::int64_t{choice.shape.order},
                    choice.shape.opening, trial.error.l2, trial.seconds, 1e9 * trial.seconds / size, direct});
         report.check(fmt::format("{}, {} points: error for accuracy {:g}", kind.name, size, accuracy),

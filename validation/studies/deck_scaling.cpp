@@ -28,7 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string arguments(const DeckScaling& asked, const Team& team, std::int64_t steps, const fs::path& files) {
+std::string arguments(const DeckScaling& asked, const Workers& team, std::int64_t steps,
+                      const fs::path& files) {
   std::string line = fmt::format("deck-run {} --threads {} --out {}", for_shell(asked.deck),
                                  team.layout.threads, for_shell(files.string()));
   for (const std::string& o : asked.overrides) line += fmt::format(" --set {}", for_shell(o));
@@ -39,7 +40,7 @@ std::string arguments(const DeckScaling& asked, const Team& team, std::int64_t s
 
 /// The turns of one team.
 struct Turns {
-  Team team;
+  Workers team;
   bool timed;
   std::vector<DeckMeasurement> turns = {};
 
@@ -62,10 +63,10 @@ struct Turns {
   }
 };
 
-std::vector<Turns> measured(const DeckScaling& asked, const std::vector<Team>& teams, int cores,
+std::vector<Turns> measured(const DeckScaling& asked, const std::vector<Workers>& teams, int cores,
                             Report& report) {
   std::vector<Turns> all;
-  for (const Team& team : teams) all.push_back({team, team.layout.workers() <= cores});
+  for (const Workers& team : teams) all.push_back({team, team.layout.workers() <= cores});
   std::int64_t steps = asked.steps;
   int done = 0;
   for (int turn = 0; turn < asked.turns; ++turn)
@@ -229,7 +230,7 @@ void study_scaling_of(const DeckScaling& asked, Report& report) {
              mpi_launcher().empty() ? "no MPI: threads only" : mpi_launcher());
   const std::string why_whole = undistributable(asked);
   if (!why_whole.empty()) fmt::print("without parallel distributed: {}\n", why_whole);
-  const std::vector<Team> all_teams = teams(asked, cores, why_whole.empty());
+  const std::vector<Workers> all_teams = teams(asked, cores, why_whole.empty());
   const ProcessorUse processors;
   const std::vector<Turns> all = measured(asked, all_teams, cores, report);
   const double by_others = processors.by_others();

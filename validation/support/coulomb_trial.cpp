@@ -68,11 +68,11 @@ double direct_seconds(const PointSet& set, Isa isa) {
   return least_seconds([&] { coulomb_direct<3>(set.view(), {0, rows}, field.view(), isa); }) * n / rows;
 }
 
-Trial tried(const PointSet& set, const TreeShape& shape, Isa isa) {
+CoulombTrial tried(const PointSet& set, const TreeShape& shape, Isa isa) {
   const Rows all = {0, set.size()};
   FieldSet field(set.size());
   TreeField tree(isa);
-  Trial trial;
+  CoulombTrial trial;
   trial.seconds = least_seconds([&] {
     tree.arrange(set.view(), shape, {1});
     trial.interactions = tree.evaluate(tree.leaves_of(all), all, field.view(), {1});

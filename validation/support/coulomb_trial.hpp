@@ -32,14 +32,14 @@ double least_seconds(const std::function<void()>& f, double together = 0.05);
 /// Seconds of the direct sum for all points.
 double direct_seconds(const PointSet& set, Isa isa = default_isa());
 
-struct Trial {
+struct CoulombTrial {
   double seconds = 0;
   FieldError error;
   Interactions interactions;
 };
 
 /// A tree of this shape.
-Trial tried(const PointSet& set, const TreeShape& shape, Isa isa = default_isa());
+CoulombTrial tried(const PointSet& set, const TreeShape& shape, Isa isa = default_isa());
 
 /// The choice of the program for an accuracy.
 CoulombReport chosen(const PointSet& set, const CoulombRequest& request, Isa isa = default_isa());

@@ -23,11 +23,11 @@ class Teams {
     if (distributed_ && layout.ranks > 1) put({layout, true});
   }
 
-  std::vector<Team> all = {Team{{1, 1}}};
+  std::vector<Workers> all = {Workers{{1, 1}}};
 
  private:
-  void put(const Team& team) {
-    const bool there = std::any_of(all.begin(), all.end(), [&](const Team& t) {
+  void put(const Workers& team) {
+    const bool there = std::any_of(all.begin(), all.end(), [&](const Workers& t) {
       return t.layout.ranks == team.layout.ranks && t.layout.threads == team.layout.threads &&
              t.subdomains == team.subdomains;
     });
@@ -54,13 +54,13 @@ void require_valid(const DeckScaling& asked) {
   if (const std::string why = undistributable(asked); !why.empty()) throw InputError(why);
 }
 
-std::string Team::name() const {
+std::string Workers::name() const {
   if (layout.serial()) return "serial";
   if (subdomains) return "distributed";
   return layout.threads == 1 ? "ranks" : layout.ranks == 1 ? "threads" : "mixed";
 }
 
-std::vector<Team> teams(const DeckScaling& asked, int cores, bool distributable) {
+std::vector<Workers> teams(const DeckScaling& asked, int cores, bool distributable) {
   Teams teams(asked, distributable);
   std::vector<int> workers = asked.workers;
   const bool products = !asked.ranks.empty() || !asked.threads.empty();

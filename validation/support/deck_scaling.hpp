@@ -27,7 +27,7 @@ void require_valid(const DeckScaling& asked);
 std::string undistributable(const DeckScaling& asked);
 
 /// A team, and whether its ranks hold a subdomain of the chain each or all of it.
-struct Team {
+struct Workers {
   RankLayout layout;
   bool subdomains = false;
 
@@ -38,6 +38,6 @@ struct Team {
 /// The serial program first, each team once. Of `workers` each number by threads and by ranks; of `ranks` and
 /// `threads` all products; of none of them the powers of 2 up to the cores. InputError for ranks where there
 /// is no MPI. `distributable`: subdomains are possible.
-std::vector<Team> teams(const DeckScaling& asked, int cores, bool distributable);
+std::vector<Workers> teams(const DeckScaling& asked, int cores, bool distributable);
 
 }  // namespace treejet

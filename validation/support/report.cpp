@@ -68,7 +68,7 @@ Report::Report(std::filesystem::path directory, bool quick_study)
   if (error) throw FileError(fmt::format("{}: {}", directory_.string(), error.message()));
 }
 
-void Report::section(const Section& section) {
+void Report::section(const ReportSection& section) {
   sections_.push_back(section);
   fmt::print("\n=== {}\n", section.title);
 }
@@ -117,7 +117,7 @@ void Report::progress(const std::string& study, int done, int runs) {
 
 int Report::conclude() {
   ResultTable contents(directory_, "sections", "", {"section", "asked", "reproduce"});
-  for (const Section& s : sections_) contents.row({s.title, s.asked, s.reproduce});
+  for (const ReportSection& s : sections_) contents.row({s.title, s.asked, s.reproduce});
   ResultTable tables(directory_, "tables", "", {"section", "table", "title"});
   for (const Entry& e : tables_) tables.row({e.section, e.table, e.title});
   ResultTable checks(directory_, "checks", "",

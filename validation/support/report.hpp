@@ -36,7 +36,7 @@ class ResultTable {
 };
 
 /// A part of the report: what is asked, and the command that asks it again.
-struct Section {
+struct ReportSection {
   std::string title, asked, reproduce;
 };
 
@@ -68,7 +68,7 @@ class Report {
   std::filesystem::path decks = {};  ///< folder of JETSPIN's example decks; empty: not at hand
 
   /// What follows belongs to it.
-  void section(const Section& section);
+  void section(const ReportSection& section);
 
   ResultTable table(const std::string& name, const std::string& title, std::vector<std::string> columns);
 
@@ -105,7 +105,7 @@ class Report {
   using Clock = std::chrono::steady_clock;
 
   std::filesystem::path directory_;
-  std::vector<Section> sections_;
+  std::vector<ReportSection> sections_;
   std::vector<Entry> tables_;
   std::vector<Claim> claims_;
   Clock::time_point begin_, last_ = Clock::now();

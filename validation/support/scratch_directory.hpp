@@ -8,15 +8,15 @@
 
 namespace treejet {
 
-struct Place {
-  Place() {
+struct ScratchDirectory {
+  ScratchDirectory() {
     static int number = 0;
     path = std::filesystem::temp_directory_path() / fmt::format("treejet-test-{}-{}", ::getpid(), number++);
     std::filesystem::create_directories(path);
   }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
-  ~Place() { std::filesystem::remove_all(path); }
+  ScratchDirectory(const ScratchDirectory&) = delete;
+  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
+  ~ScratchDirectory() { std::filesystem::remove_all(path); }
   std::filesystem::path path;
 };
 

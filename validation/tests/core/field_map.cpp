@@ -92,7 +92,7 @@ Vec<3> field_of_smooth(const Vec<3>& r) {
 }
 
 std::shared_ptr<const FieldMap> map_of(const Sampled& s) {
-  static const Place scratch;
+  static const ScratchDirectory scratch;
   write_hdf5((scratch.path / "map.h5").string(), s);
   return read_field_map((scratch.path / "map.h5").string());
 }
@@ -134,7 +134,7 @@ TEST_CASE("The field of a map is the gradient of its potential, with continuous 
 }
 
 TEST_CASE("HDF5 and VTK image data, in text or raw, give the same map") {
-  const Place scratch;
+  const ScratchDirectory scratch;
   const Sampled s = sample(10, smooth);
   write_hdf5((scratch.path / "map.h5").string(), s);
   write((scratch.path / "text.vti").string(), vti(s, true));
@@ -149,7 +149,7 @@ TEST_CASE("HDF5 and VTK image data, in text or raw, give the same map") {
 }
 
 TEST_CASE("A file that is no map is refused with what it should hold") {
-  const Place scratch;
+  const ScratchDirectory scratch;
   const std::string good = vti(sample(10, smooth), false), path = (scratch.path / "map.vti").string();
   const auto said = [&](const std::string& bytes) -> std::string {
     write(path, bytes);

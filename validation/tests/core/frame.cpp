@@ -126,7 +126,7 @@ TEST_CASE("The sign of the charge turns forces, not lengths") {
 }
 
 TEST_CASE("Only the first frame of an XYZ file names the program, and all have as many lines") {
-  const Place place;
+  const ScratchDirectory place;
   const Parameters p = deck();
   const auto written = [&](const FrameFormat& format) {
     const auto file = place.path / format.name;

@@ -117,7 +117,7 @@ TEST_CASE("A run extended beyond its end leaves the bytes of one that had the la
     CAPTURE(c.example, c.overrides);
     const std::vector<std::string> later = {fmt::format("final time {}", 1.7 * c.end)};
     const Deck deck = deck_of(c.example, with_outputs(c)), longer = changed(deck, later);
-    const Place whole, extended, stopped;
+    const ScratchDirectory whole, extended, stopped;
     int steps = 0;
     REQUIRE(run(longer, whole.path));
     REQUIRE(run(deck, extended.path, [&] { return ++steps, StopRequest::go_on; }));
@@ -133,7 +133,7 @@ TEST_CASE("A run extended beyond its end leaves the bytes of one that had the la
 }
 
 TEST_CASE("What is extended tells from where on, and its record and trajectory the deck it has now") {
-  const Place place;
+  const ScratchDirectory place;
   REQUIRE(run(deck_of("pvp", {"final time 3.d-4", "print time 1.d-4", "print hdf5 1.d-4"}), place.path));
   REQUIRE(extend(place.path, {"final time 5.d-4", "checkpoint 600"}));
   const std::string table = read_whole(place.path / "statdat.dat");
@@ -147,7 +147,7 @@ TEST_CASE("What is extended tells from where on, and its record and trajectory t
 }
 
 TEST_CASE("The means and the effort of the shorter run leave the record once it is extended") {
-  const Place place;
+  const ScratchDirectory place;
   REQUIRE(run(deck_of("pvp", {"final time 3.d-4", "print time 1.d-5"}), place.path));
   REQUIRE_THAT(read_whole(place.path / "run.json"),
                Catch::Contains("\"means\"") && Catch::Contains("\"effort\""));
@@ -158,7 +158,7 @@ TEST_CASE("The means and the effort of the shorter run leave the record once it 
 }
 
 TEST_CASE("A checkpoint knows what its run began with") {
-  const Place first, second;
+  const ScratchDirectory first, second;
   const Deck deck = deck_of("pvp", {"final time 3.d-4", "print time 1.d-4"});
   REQUIRE(run(deck, first.path));
   Origin state = origin((first.path / "checkpoint.end").string());
@@ -172,9 +172,9 @@ TEST_CASE("A checkpoint knows what its run began with") {
 }
 
 TEST_CASE("Nothing but the end of a run that goes on may change") {
-  const Place place, silent, brief;
+  const ScratchDirectory place, silent, brief;
   REQUIRE(run(deck_of("pvp", {"final time 3.d-4", "print time 1.d-4"}), place.path));
-  const auto change = [](const Place& at, std::vector<std::string> overrides) {
+  const auto change = [](const ScratchDirectory& at, std::vector<std::string> overrides) {
     return resumption(at.path, this_program, overrides);
   };
   CHECK_FALSE(change(place, {"final time 3.d-4"}).extended);
@@ -207,7 +207,7 @@ TEST_CASE("A run begun with a checkpoint of the same deck goes on to the bit as 
     // fcn and fcc are differences of sums since the start, which another start rounds otherwise
     const Deck deck = changed(deck_of(c.example, with_outputs(c)),
                               {"printstat list t x n st vx f l curn curc lp vc svc rc"});
-    const Place whole, stopped, begun;
+    const ScratchDirectory whole, stopped, begun;
     int steps = 0;
     REQUIRE(run(deck, whole.path, [&] { return ++steps, StopRequest::go_on; }));
     REQUIRE_FALSE(run(deck, stopped.path, after(steps / 2)));
@@ -242,7 +242,7 @@ TEST_CASE("A run begun with a checkpoint of the same deck goes on to the bit as 
 }
 
 TEST_CASE("A jet that another run begins with is the same in CGS, whatever the new deck's scales") {
-  const Place place;
+  const ScratchDirectory place;
   REQUIRE(run(deck_of("pvp", {"final time 1.d-3", "print hdf5 1.d-4"}), place.path));
   const Deck deck =
       deck_of("pvp", {"final time 1", "viscosity 35", "elastic modulus 7.d4", "nozzle cross 7.d-3",
@@ -278,12 +278,12 @@ TEST_CASE("A jet that another run begins with is the same in CGS, whatever the n
 TEST_CASE("A run begun with a frame goes on as the other one within the tolerance of the steps") {
   const std::vector<std::string> overrides = {"final time 4.d-3", "print hdf5 1.d-3", "print time 1.d-3"};
   const Deck deck = deck_of("pvp", overrides);
-  const Place whole, begun;
+  const ScratchDirectory whole, begun;
   REQUIRE(run(deck, whole.path));
   Origin source = origin(whole.path.string() + "@2.d-3");
   CHECK_FALSE(steps_of(source, deck.parameters));
   REQUIRE(run(deck, begun.path, [] { return StopRequest::go_on; }, {.origin = &source}));
-  const auto last = [](const Place& at) {
+  const auto last = [](const ScratchDirectory& at) {
     const H5md file(at.path / "traj.h5", Hdf5File::Access::read);
     return file.frames(file.frames() - 1, 1)[0];
   };
@@ -297,7 +297,7 @@ TEST_CASE("A run begun with a frame goes on as the other one within the toleranc
 }
 
 TEST_CASE("A jet that a deck cannot begin with is refused with the reason") {
-  const Place place, straight, empty;
+  const ScratchDirectory place, straight, empty;
   REQUIRE(run(deck_of("pvp", {"final time 1.d-3", "print hdf5 1.d-4"}), place.path));
   const auto begin = [](const std::string& from, std::vector<std::string> overrides) {
     const Deck deck = deck_of("pvp", overrides);

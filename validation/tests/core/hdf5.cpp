@@ -81,7 +81,7 @@ void check_same(const Frame& a, const Frame& b) {
 }  // namespace
 
 TEST_CASE("A trajectory read back is the one written, to the bit, and tells what made it") {
-  const Place place;
+  const ScratchDirectory place;
   const fs::path path = place.path / "traj.h5";
   written_at_once(path);
   const H5md file(path, Hdf5File::Access::read);
@@ -116,7 +116,7 @@ TEST_CASE("Each frame that ParaView is told of is its own rows of the datasets")
 }
 
 TEST_CASE("The bytes of a finished trajectory do not depend on how often it was flushed") {
-  const Place place;
+  const ScratchDirectory place;
   const std::string expected = written_at_once(place.path / "once" / "traj.h5");
   const fs::path path = place.path / "often" / "traj.h5";
   H5mdTrajectory file(path, content, Existing::keep);
@@ -128,7 +128,7 @@ TEST_CASE("The bytes of a finished trajectory do not depend on how often it was 
 }
 
 TEST_CASE("A frame that comes in parts is the frame, wherever the file is cut off and continued") {
-  const Place place;
+  const ScratchDirectory place;
   constexpr int last = 9;
   // every third one comes in parts, of which none is as long as the frame
   const auto appended = [](H5mdTrajectory& file, int first, int end) {
@@ -181,7 +181,7 @@ TEST_CASE("A frame that comes in parts is the frame, wherever the file is cut of
 }
 
 TEST_CASE("A trajectory continued from an earlier frame has the bytes of one that was never interrupted") {
-  const Place place;
+  const ScratchDirectory place;
   const std::string expected = written_at_once(place.path / "once" / "traj.h5");
   for (const int kept : {0, 1, 33, 34, frames}) {
     CAPTURE(kept);
@@ -206,7 +206,7 @@ TEST_CASE("A trajectory continued from an earlier frame has the bytes of one tha
 }
 
 TEST_CASE("After each flush a trajectory is whole, and whoever reads it keeps what he has opened") {
-  const Place place;
+  const ScratchDirectory place;
   const fs::path path = place.path / "traj.h5";
   H5mdTrajectory file(path, content, Existing::keep);
   std::vector<std::unique_ptr<H5md>> readers;
@@ -223,7 +223,7 @@ TEST_CASE("After each flush a trajectory is whole, and whoever reads it keeps wh
 }
 
 TEST_CASE("A trajectory that is removed, or already there, is an error that names it") {
-  const Place place;
+  const ScratchDirectory place;
   const fs::path path = place.path / "traj.h5";
   H5mdTrajectory file(path, content, Existing::keep);
   append(file, 0, 3, nothing);
@@ -239,7 +239,7 @@ TEST_CASE("A trajectory that is removed, or already there, is an error that name
 }
 
 TEST_CASE("A trajectory cut short anywhere is refused, never read in part") {
-  const Place place;
+  const ScratchDirectory place;
   const fs::path path = place.path / "traj.h5", cut = place.path / "cut.h5";
   const std::string whole = written_at_once(path);
   for (std::size_t length = 0; length < whole.size(); length += whole.size() / 97) {

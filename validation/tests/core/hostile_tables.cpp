@@ -61,7 +61,7 @@ constexpr std::string_view eight_zeros_deflated{"\x78\x01\x63\x60\x80\0\0\0\x08\
 }  // namespace
 
 TEST_CASE("A chunk that inflates to less than its extent, or to more, is refused") {
-  const Place place;
+  const ScratchDirectory place;
   const auto path = place.path / "table.h5";
   const std::string whole = file_of_a_table(path, true);
   REQUIRE(table_in(path, whole)[n - 1] == std::sin(double(n - 1)));
@@ -76,7 +76,7 @@ TEST_CASE("A chunk that inflates to less than its extent, or to more, is refused
 }
 
 TEST_CASE("A chunk is refused if it is said to have gone through other filters than make up its extent") {
-  const Place place;
+  const ScratchDirectory place;
   const auto path = place.path / "table.h5";
   const std::string whole = file_of_a_table(path, true);
   for (const char* skipped : {"\1", "\2", "\3"}) {
@@ -91,7 +91,7 @@ TEST_CASE("A chunk is refused if it is said to have gone through other filters t
 }
 
 TEST_CASE("An uncompressed chunk is read by its extent, whatever length it is said to have") {
-  const Place place;
+  const ScratchDirectory place;
   const auto path = place.path / "table.h5";
   const std::string whole = file_of_a_table(path, false);
   const std::vector<double> values = table_in(path, whole);
@@ -100,7 +100,7 @@ TEST_CASE("An uncompressed chunk is read by its extent, whatever length it is sa
 }
 
 TEST_CASE("Chunks of no extent, or of more or fewer extents than their table has, are refused") {
-  const Place place;
+  const ScratchDirectory place;
   const auto path = place.path / "table.h5";
   const std::string whole = file_of_a_table(path, true);
   const auto with = [&](std::ptrdiff_t after, std::string_view bytes) {
@@ -116,7 +116,7 @@ TEST_CASE("Chunks of no extent, or of more or fewer extents than their table has
 }
 
 TEST_CASE("Numbers are read by the size of their type, not by the one that chunks are said to have") {
-  const Place place;
+  const ScratchDirectory place;
   const auto path = place.path / "table.h5";
   for (const bool compressed : {false, true}) {
     const std::string whole = file_of_a_table(path, compressed);
@@ -127,7 +127,7 @@ TEST_CASE("Numbers are read by the size of their type, not by the one that chunk
 }
 
 TEST_CASE("Layouts of other versions, and of other files, are refused before the library opens them") {
-  const Place place;
+  const ScratchDirectory place;
   const auto path = place.path / "table.h5";
   const std::string whole = file_of_a_table(path, true);
   for (const char* version : {"\1", "\2", "\4"})
@@ -136,7 +136,7 @@ TEST_CASE("Layouts of other versions, and of other files, are refused before the
 }
 
 TEST_CASE("Names and chunks whose tree or heap is nowhere, or a tree in a circle, are refused") {
-  const Place place;
+  const ScratchDirectory place;
   const auto path = place.path / "table.h5";
   const std::string whole = file_of_a_table(path, true);
   const auto nowhere = text("\xff\xff\xff\xff\xff\xff\xff\xff");
@@ -153,7 +153,7 @@ TEST_CASE("Names and chunks whose tree or heap is nowhere, or a tree in a circle
 }
 
 TEST_CASE("Gaps of a heap in a circle, or across its end, are refused before the library fills its memory") {
-  const Place place;
+  const ScratchDirectory place;
   const auto path = place.path / "table.h5";
   const std::string whole = file_of_a_table(path, true);
   const std::size_t heap = whole.find("HEAP");
@@ -181,7 +181,7 @@ TEST_CASE("Gaps of a heap in a circle, or across its end, are refused before the
 }
 
 TEST_CASE("What has never been written is no number, or number -1, whatever the file would fill in") {
-  const Place place;
+  const ScratchDirectory place;
   const auto path = place.path / "table.h5";
   {
     Hdf5File file(path, Hdf5File::Access::create);

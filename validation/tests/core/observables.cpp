@@ -204,7 +204,7 @@ TEST_CASE("Rows stand at exactly the asked times, whatever the steps") {
 }
 
 TEST_CASE("print xyz rescale stretches all coordinates of a frame") {
-  const Place place;
+  const ScratchDirectory place;
   Run<3> run(example("pvp"));
   const auto frame = [&](double rescale, const char* file) {
     XyzTrajectory<3> trajectory({run.scene.nozzle, run.unit, 1, 2, rescale, "treejet"},
@@ -226,7 +226,7 @@ TEST_CASE("print xyz rescale stretches all coordinates of a frame") {
 }
 
 TEST_CASE("What has no value is nan in statdat.dat") {
-  const Place place;
+  const ScratchDirectory place;
   {
     StatFile table(OutputFile(place.path / "statdat.dat", OutputFile::Existing::keep), {"t", "vc"}, {});
     table.row({0.5, std::nan("")});

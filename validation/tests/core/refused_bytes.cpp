@@ -86,7 +86,7 @@ TEST_CASE("A list of pieces is not made for more of them than the sizes in front
 }
 
 TEST_CASE("A run does not begin with a checkpoint whose beads lack a mass, an id or a column") {
-  const Place place;
+  const ScratchDirectory place;
   Jet<3> jet;
   append(jet, Bead<3>({1, 0, 0}, {1, 0, 0}));
   append(jet, Bead<3>({0.5, 0, 0}, {1, 0, 0}));
@@ -101,7 +101,7 @@ TEST_CASE("A run does not begin with a checkpoint whose beads lack a mass, an id
 }
 
 TEST_CASE("Beads that a run begins with are in CGS what they were, whatever the scales of its deck") {
-  const Place place;
+  const ScratchDirectory place;
   Jet<3> jet;
   append(jet, Bead<3>({1, 0, 0}, {1, 0, 0}, 0.3, 2, 3));
   jet.volume[0] = 1.5;
@@ -122,7 +122,7 @@ TEST_CASE("Beads that a run begins with are in CGS what they were, whatever the 
 }
 
 TEST_CASE("A run does not begin with a frame without points, or with beads of no number") {
-  const Place place;
+  const ScratchDirectory place;
   const auto begun = [&](const char* name, const std::vector<std::int64_t>& ids) {
     return jet_of<3>(origin(trajectory_of(place.path / name, ids).string()), example("pvp"));
   };

@@ -138,7 +138,7 @@ TEST_CASE("A run stopped and resumed at any steps leaves the same bytes as one l
   for (const Case& c : cases()) {
     const Deck deck = deck_of(c);
     CAPTURE(c.example, c.overrides);
-    const Place whole, parts;
+    const ScratchDirectory whole, parts;
     int steps = 0;
     REQUIRE(run(deck, whole.path, [&] { return ++steps, StopRequest::go_on; }));
     REQUIRE(steps > 20);
@@ -157,7 +157,7 @@ TEST_CASE("A run stopped and resumed at any steps leaves the same bytes as one l
 TEST_CASE("Saving a checkpoint between all steps changes no bit and keeps the last two") {
   const Deck deck =
       deck_of({"pvp", {"final time 2.d-4", "print time 3.d-5", "print xyz 7.d-5", "print hdf5 5.d-5"}});
-  const Place plain, saving;
+  const ScratchDirectory plain, saving;
   REQUIRE(run(deck, plain.path, never));
   int saved = 0;
   REQUIRE(run(deck, saving.path, [&] {
@@ -176,7 +176,7 @@ TEST_CASE("Saving a checkpoint between all steps changes no bit and keeps the la
 
 TEST_CASE("A checkpoint that is not sound is refused, and the older one gives the same bytes") {
   const Deck deck = deck_of({"pvp", {"final time 2.d-4", "print time 3.d-5", "print xyz 7.d-5"}});
-  const Place whole, stopped;
+  const ScratchDirectory whole, stopped;
   REQUIRE(run(deck, whole.path, never));
   int steps = 0;
   REQUIRE_FALSE(run(deck, stopped.path, [&] {
@@ -224,7 +224,7 @@ TEST_CASE("A checkpoint that is not sound is refused, and the older one gives th
 }
 
 TEST_CASE("A checkpoint of another program is taken with a warning that names both") {
-  const Place place;
+  const ScratchDirectory place;
   REQUIRE_FALSE(run(deck_of({"pvp", {}}), place.path, after(3)));
   CHECK(resumption(place.path, this_program).warnings.empty());
   const auto warnings = resumption(place.path, "another program").warnings;
@@ -268,7 +268,7 @@ TEST_CASE("A deck other than the checkpoint's is refused, naming each directive 
 
 TEST_CASE("A stopped run is neither started over nor resumed into files that are not its own") {
   const Deck deck = deck_of({"pvp", {"final time 1.d-3", "print time 3.d-5", "print xyz 7.d-5"}});
-  const Place place;
+  const ScratchDirectory place;
   REQUIRE_FALSE(run(deck, place.path, after(20)));
   CHECK_THROWS_WITH(run(deck, place.path, never), Catch::Contains("--resume"));
 
@@ -285,7 +285,7 @@ TEST_CASE("A stopped run is neither started over nor resumed into files that are
 }
 
 TEST_CASE("A directory of results takes one run at a time") {
-  const Place place;
+  const ScratchDirectory place;
   const fs::path results = place.path / "results";
   {
     const DirectoryLock first(results);
@@ -298,7 +298,7 @@ TEST_CASE("A directory of results takes one run at a time") {
 }
 
 TEST_CASE("A file of results tells when it is removed or changed") {
-  const Place place;
+  const ScratchDirectory place;
   const fs::path path = place.path / "statdat.dat";
   const auto replace = OutputFile::Existing::replace;
   {
@@ -363,7 +363,7 @@ TEST_CASE("What an archive reads is what was written; another layout and missing
 }
 
 TEST_CASE("A row that a full disk has cut short is taken back") {
-  const Place place;
+  const ScratchDirectory place;
   const fs::path path = place.path / "statdat.dat";
   OutputFile file(path, OutputFile::Existing::replace);
   file.write("whole\n");

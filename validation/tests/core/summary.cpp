@@ -10,7 +10,7 @@
 using namespace treejet;
 
 TEST_CASE("The summary's volumes and current are those of the beads that were inserted and have arrived") {
-  const Place place;
+  const ScratchDirectory place;
   const Deck deck = read_deck(TREEJET_SOURCE_DIR "/validation/decks/stream.dat",
                               {"points 60", "final time 5.d-4", "timestep 1.d-6", "integrator heun",
                                "print xyz 1.d-4", "print xyz maxnum 20"});

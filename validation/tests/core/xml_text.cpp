@@ -45,7 +45,7 @@ TEST_CASE("A column whose name is markup leaves the description for ParaView rea
 }
 
 TEST_CASE("A column whose name is markup leaves ParaView's own files readable") {
-  const Place place;
+  const ScratchDirectory place;
   FrameWriterSetting setting;
   setting.out = (place.path / "a&b.pvd").string();
   setting.columns = hostile_columns();

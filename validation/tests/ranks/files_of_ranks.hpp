@@ -26,7 +26,7 @@ struct SharedPlace {
     const std::vector<double> name = ranks.exchange(messages).front();
     path = std::string(name.begin(), name.end());
   }
-  std::optional<Place> own;
+  std::optional<ScratchDirectory> own;
   std::filesystem::path path;
 };
 

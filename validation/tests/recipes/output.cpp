@@ -31,7 +31,7 @@ class TipTrack final : public Sampling<3> {
 }  // namespace
 
 TEST_CASE("The track of a bead that moves freely is a straight line, at the times asked for") {
-  const Place scratch;
+  const ScratchDirectory scratch;
   const auto path = scratch.path / "tip.dat";
   {
     Parameters p = plain_parameters();
