@@ -56,18 +56,20 @@ void Team::run(int threads, int count, const std::function<void(int)>& f) {
   done_ = 0;
   job_and_task_ = closed + one_job;
   job_and_task_.notify_all();
-  take_part();
+  take_part(0);
   if (soon([&] { return done_ == count; })) return;
   for (int done = done_; done < count; done = done_) done_.wait(done);
 }
 
-/// Tasks of the job that is open, until there are no more.
-void Team::take_part() {
+/// Tasks of the job that is open, until there are no more, if it has room for the helper of that number;
+/// whoever asks has number 0. A task is taken only if the job is still the one whose words have been read.
+void Team::take_part(int number) {
   while (true) {
     std::uint64_t next = job_and_task_;
     const std::function<void(int)>* const f = f_;
     const int count = count_;
-    if (!is_open(next) || task(next) >= count) return;
+    const bool has_room = number <= helpers_;
+    if (!is_open(next) || task(next) >= count || !has_room) return;
     if (!job_and_task_.compare_exchange_strong(next, next + 1)) continue;
     (*f)(task(next));
     if (++done_ == count) done_.notify_one();
@@ -77,7 +79,7 @@ void Team::take_part() {
 void Team::work(int number) {
   at_start_(number);
   while (true) {
-    if (number <= helpers_) take_part();
+    take_part(number);
     const std::uint64_t seen = job_and_task_;
     if (seen == over) return;
     if (is_open(seen) && task(seen) < count_ && number <= helpers_) continue;
