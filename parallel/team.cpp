@@ -63,13 +63,14 @@ void Team::run(int threads, int count, const std::function<void(int)>& f) {
 
 /// Tasks of the job that is open, until there are no more, if it has room for the helper of that number;
 /// whoever asks has number 0. A task is taken only if the job is still the one whose words have been read.
-void Team::take_part(int number) {
+/// Returns the job and task in which there was nothing to take.
+std::uint64_t Team::take_part(int number) {
   while (true) {
     std::uint64_t next = job_and_task_;
     const std::function<void(int)>* const f = f_;
     const int count = count_;
     const bool has_room = number <= helpers_;
-    if (!is_open(next) || task(next) >= count || !has_room) return;
+    if (!is_open(next) || task(next) >= count || !has_room) return next;
     if (!job_and_task_.compare_exchange_strong(next, next + 1)) continue;
     (*f)(task(next));
     if (++done_ == count) done_.notify_one();
@@ -79,10 +80,8 @@ void Team::take_part(int number) {
 void Team::work(int number) {
   at_start_(number);
   while (true) {
-    take_part(number);
-    const std::uint64_t seen = job_and_task_;
+    const std::uint64_t seen = take_part(number);
     if (seen == over) return;
-    if (is_open(seen) && task(seen) < count_ && number <= helpers_) continue;
     if (!soon([&] { return job(job_and_task_) != job(seen); })) job_and_task_.wait(seen);
   }
 }

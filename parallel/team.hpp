@@ -29,7 +29,7 @@ class Team {
   void run(int threads, int count, const std::function<void(int)>& f);
 
  private:
-  void take_part(int number);
+  std::uint64_t take_part(int number);
   void work(int number);
 
   /// The number of the job (odd: none can be taken), and of the next task; all ones at the end of the team.
