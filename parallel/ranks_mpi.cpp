@@ -193,7 +193,8 @@ void Ranks::send(int to, std::vector<double> message) const {
   const Working at(Work::exchange);
   std::list<UnderWay>& under_way = world_->under_way;
   under_way.remove_if([](UnderWay& sent) { return sent.done(); });
-  UnderWay& sent = under_way.emplace_back(std::move(message), MPI_REQUEST_NULL);
+  under_way.push_back({std::move(message), MPI_REQUEST_NULL});
+  UnderWay& sent = under_way.back();
   MPI_Isend(sent.message.data(), static_cast<int>(sent.message.size()), MPI_DOUBLE, to, sent_alone,
             world_->everyone, &sent.request);
   ++world_->traffic.messages;
