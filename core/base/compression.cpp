@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 
 namespace treejet {
 
@@ -40,6 +41,16 @@ std::optional<std::string> inflated(std::string_view stream, std::uint64_t most)
   inflateEnd(&state);
   if (status != Z_STREAM_END || found.size() > most) return {};
   return found;
+}
+
+std::string deflated(std::string_view bytes, int level) {
+  uLongf length = compressBound(bytes.size());
+  std::string stream(length, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(stream.data()), &length, bytes_of(bytes), bytes.size(), level) !=
+      Z_OK)
+    throw std::bad_alloc();  // there is room for any bytes
+  stream.resize(length);
+  return stream;
 }
 
 }  // namespace treejet

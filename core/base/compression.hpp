@@ -15,4 +15,7 @@ std::uint64_t crc32(std::string_view bytes, std::uint64_t before = 0);
 /// more than `most` bytes, for which no room is made before they come.
 std::optional<std::string> inflated(std::string_view stream, std::uint64_t most);
 
+/// A zlib stream of the bytes; the lower the level, 1 to 9, the faster.
+std::string deflated(std::string_view bytes, int level);
+
 }  // namespace treejet

@@ -1,6 +1,6 @@
 #pragma once
-/// Who works at the rows of a long table, for algebra that knows no threads: one after the other, unless a
-/// run puts in its place what shares them out.
+/// Who works at the rows of a long table, or at the chunks of a file, for algebra and files that know no
+/// threads: one after the other, unless a run puts in its place what shares them out.
 
 #include <Eigen/Core>
 #include <functional>

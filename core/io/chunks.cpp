@@ -1,6 +1,7 @@
 #include "core/io/chunks.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "core/base/compression.hpp"
 
@@ -17,6 +18,16 @@ std::string unshuffled(const std::string& bytes, std::uint64_t width) {
     for (std::uint64_t i = 0; i < elements; ++i) whole[i * width + k] = from[i];
   }
   return whole;
+}
+
+std::string shuffled(const std::string& whole, std::uint64_t width) {
+  const std::uint64_t elements = whole.size() / width;
+  std::string bytes = whole;
+  for (std::uint64_t k = 0; k < width; ++k) {
+    char* to = bytes.data() + k * elements;
+    for (std::uint64_t i = 0; i < elements; ++i) to[i] = whole[i * width + k];
+  }
+  return bytes;
 }
 
 /// Fletcher's sums of numbers of two bytes, the first byte the high one, modulo 65535.
@@ -72,6 +83,27 @@ std::optional<std::string> unfiltered(std::string bytes, std::span<const ChunkFi
   return bytes;
 }
 
+std::string filtered(std::string bytes, std::span<const ChunkFilter> filters) {
+  for (const ChunkFilter& filter : filters) {
+    switch (filter.kind) {
+      case ChunkFilter::Kind::shuffle:
+        bytes = shuffled(bytes, filter.width);
+        break;
+      case ChunkFilter::Kind::deflate:
+        bytes = deflated(bytes, deflate_level);
+        break;
+      case ChunkFilter::Kind::fletcher32:
+        throw std::logic_error("no file is written with checksums of chunks");
+    }
+  }
+  return bytes;
+}
+
+TableBox values_of(TableBox chunks, const Extent& chunk) {
+  for (std::size_t k = 0; k < chunk.size(); ++k) chunks.first[k] *= chunk[k], chunks.size[k] *= chunk[k];
+  return chunks;
+}
+
 TableBox shared(const TableBox& a, const TableBox& b) {
   TableBox both = a;
   for (std::size_t k = 0; k < a.first.size(); ++k) {
@@ -89,6 +121,14 @@ TableBox chunks_touched_by(const TableBox& box, const Extent& chunk) {
     if (box.size[k] > 0) grid.size[k] = (box.first[k] + box.size[k] - 1) / chunk[k] - grid.first[k] + 1;
   }
   return grid;
+}
+
+bool is_of_whole_chunks(const TableBox& box, const Extent& chunk, const Extent& table) {
+  for (std::size_t k = 0; k < chunk.size(); ++k) {
+    const std::uint64_t end = box.first[k] + box.size[k];
+    if (box.first[k] % chunk[k] != 0 || (end % chunk[k] != 0 && end != table[k])) return false;
+  }
+  return true;
 }
 
 namespace {
@@ -114,7 +154,7 @@ class Presence {
     for_each_place(chunks,
                    [&](const Extent& place) { ++all, some += there_[number_in(grid_, place)] ? 1 : 0; });
     if (some == 0) return;
-    if (some == all) return found.push_back(values_of(chunks));
+    if (some == all) return found.push_back(shared(box_, values_of(chunks, chunk_)));
     const auto longest = static_cast<std::size_t>(std::max_element(chunks.size.begin(), chunks.size.end()) -
                                                   chunks.size.begin());
     TableBox left = chunks, right = chunks;
@@ -123,12 +163,6 @@ class Presence {
     right.size[longest] -= left.size[longest];
     collect(left, found);
     collect(right, found);
-  }
-
-  TableBox values_of(const TableBox& chunks) const {
-    TableBox values = chunks;
-    for (std::size_t k = 0; k < chunk_.size(); ++k) values.first[k] *= chunk_[k], values.size[k] *= chunk_[k];
-    return shared(box_, values);
   }
 
   const TableBox& box_;

@@ -34,6 +34,12 @@ struct ChunkFilter {
 std::optional<std::string> unfiltered(std::string bytes, std::span<const ChunkFilter> filters,
                                       unsigned skipped, std::uint64_t length);
 
+/// The level of deflate: higher ones gain a hundredth on trajectories.
+inline constexpr unsigned deflate_level = 1;
+
+/// What the filters make of the bytes of a chunk. Nothing is written with a checksum here.
+std::string filtered(std::string bytes, std::span<const ChunkFilter> filters);
+
 /// The parts of a box that lie in chunks of which `there` is true, in few pieces. It is asked once of each
 /// chunk that the box touches, by the chunk's place among chunks.
 std::vector<TableBox> parts_there(const TableBox& box, const Extent& chunk,
@@ -41,6 +47,9 @@ std::vector<TableBox> parts_there(const TableBox& box, const Extent& chunk,
 
 /// The chunks that a box touches, by their place among chunks.
 TableBox chunks_touched_by(const TableBox& box, const Extent& chunk);
+
+/// Whether a box holds all that there is, in a table of that extent, of each chunk that it touches.
+bool is_of_whole_chunks(const TableBox& box, const Extent& chunk, const Extent& table);
 
 /// Which one a place is in a box, in the order of rows.
 inline std::uint64_t number_in(const TableBox& box, const Extent& place) {
@@ -62,6 +71,9 @@ void for_each_place(const TableBox& box, Act act) {
     }
   }
 }
+
+/// The values of a box of chunks.
+TableBox values_of(TableBox chunks, const Extent& chunk);
 
 /// What two boxes share; nothing along an axis on which they do not meet.
 TableBox shared(const TableBox& a, const TableBox& b);

@@ -56,7 +56,7 @@ struct Row {
 };
 
 /// Points that a frame of a long jet is taken to files in at a time.
-inline constexpr std::uint64_t points_at_once = 16'384;
+inline constexpr std::uint64_t points_at_once = 65'536;
 
 /// Not `to_nozzle`: a part of a frame, without the jet's youngest bead, with which the next part begins.
 template <int D>

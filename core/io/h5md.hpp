@@ -51,6 +51,9 @@ class H5md {
   std::pair<double, std::uint64_t> copy_frame(const H5md& from, std::uint64_t frame);
   void close() { file_.close(); }
 
+  /// Who compresses.
+  void share_chunks(const RowSharing& chunks_shared) { file_.chunks_shared = chunks_shared; }
+
   std::uint64_t frames() const { return frames_; }
   std::uint64_t rows() const { return rows_; }
   /// Of the largest frame.

@@ -44,8 +44,9 @@ H5md::Chunk final_chunk(const H5md& file) {
 
 }  // namespace
 
-H5mdTrajectory::H5mdTrajectory(const fs::path& path, H5md::Content content, OutputFile::Existing existing)
-    : path_(path), content_(std::move(content)) {
+H5mdTrajectory::H5mdTrajectory(const fs::path& path, H5md::Content content, OutputFile::Existing existing,
+                               RowSharing chunks_shared)
+    : path_(path), content_(std::move(content)), chunks_shared_(std::move(chunks_shared)) {
   if (existing == OutputFile::Existing::resume) return;
   std::error_code error;
   if (existing == OutputFile::Existing::keep && fs::exists(path_, error)) throw exists_already(path_);
@@ -192,6 +193,7 @@ void H5mdTrajectory::rewrite(bool final_form) {
   const std::uint64_t at_once =
       final_form ? chunk.frames : 64;  // whole chunks, so that none is compressed twice
   H5md fresh(twin(), content_, chunk);
+  fresh.share_chunks(chunks_shared_);
   xdmf_ = {};
   points_ = 0;
   const bool long_frames = file.points() > points_at_once;

@@ -30,7 +30,8 @@ class H5mdTrajectory {
  public:
   /// A new one, without frames; or, to be resumed, the one that is there, whatever it holds: continue_from
   /// comes next.
-  H5mdTrajectory(const std::filesystem::path& path, H5md::Content content, OutputFile::Existing existing);
+  H5mdTrajectory(const std::filesystem::path& path, H5md::Content content, OutputFile::Existing existing,
+                 RowSharing chunks_shared = all_at_once);
   /// Flushes what a run that has failed leaves.
   ~H5mdTrajectory();
   H5mdTrajectory(const H5mdTrajectory&) = delete;
@@ -72,6 +73,7 @@ class H5mdTrajectory {
 
   std::filesystem::path path_;
   H5md::Content content_;
+  RowSharing chunks_shared_;
   Xdmf xdmf_;
   std::uint64_t frames_ = 0, rows_ = 0, points_ = 0;
   Samples pending_;              ///< not in the file

@@ -4,9 +4,11 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/io/hdf5_handle.hpp"
+#include "core/io/hdf5_table.hpp"
 
 namespace treejet {
 
@@ -87,9 +89,8 @@ void Hdf5File::dataset(const std::string& name, const Layout& layout) {
   check(H5Pset_chunk(content, rank, chunk.data()), "chunk");
   check(H5Pset_fill_value(content, H5T_NATIVE_DOUBLE, &layout.fill), "fill value");
   if (layout.compressed) {
-    constexpr unsigned level = 1;  // higher ones gain a hundredth on trajectories
     check(H5Pset_shuffle(content), "shuffle filter");
-    check(H5Pset_deflate(content, level), "deflate filter");
+    check(H5Pset_deflate(content, deflate_level), "deflate filter");
   }
   const Handle set(check(H5Dcreate2(file_, name.c_str(), on_disk(layout.number), space, makes_groups(),
                                     content, H5P_DEFAULT),
@@ -171,23 +172,23 @@ void Hdf5File::resize(const std::string& dataset, const Extent& extent) {
   check(H5Dset_extent(set, now.data()), "cannot grow");
 }
 
-void Hdf5File::write(const std::string& dataset, const Box& box, Id type, const void* values) {
+template <class T>
+void Hdf5File::write(const std::string& dataset, const Box& box, Id type, const T* values, T absent) {
   const Checker check(path_, dataset);
-  const std::vector<hsize_t> first(box.first.begin(), box.first.end()),
-      size(box.size.begin(), box.size.end());
   const Handle set(check(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), "cannot be opened"), H5Dclose);
-  const Handle place(check(H5Dget_space(set), "cannot be opened"), H5Sclose);
-  const Handle memory(check(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), "space"),
-                      H5Sclose);
-  check(H5Sselect_hyperslab(place, H5S_SELECT_SET, first.data(), nullptr, size.data(), nullptr), "selection");
-  check(H5Dwrite(set, type, memory, place, H5P_DEFAULT, values), "cannot be written");
+  const Stored& form = stored(dataset, set);
+  const TableWriter<T> writer(path_, dataset, set, type);
+  if (!form.filters.empty() && is_of_whole_chunks(box, form.chunk, extent_of(set, check)))
+    writer.write_filtered(box, form.chunk, form.filters, chunks_shared, values, absent);
+  else
+    writer.write_plain(box, values);
 }
 
 void Hdf5File::write(const std::string& dataset, const Box& box, const double* values) {
-  write(dataset, box, H5T_NATIVE_DOUBLE, values);
+  write(dataset, box, H5T_NATIVE_DOUBLE, values, std::numeric_limits<double>::quiet_NaN());
 }
 void Hdf5File::write(const std::string& dataset, const Box& box, const std::int64_t* values) {
-  write(dataset, box, H5T_NATIVE_INT64, values);
+  write(dataset, box, H5T_NATIVE_INT64, values, std::int64_t{-1});
 }
 
 bool is_hdf5(const std::filesystem::path& path) {

@@ -26,6 +26,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/row_sharing.hpp"
 #include "core/io/chunks.hpp"
 #include "core/io/object_header.hpp"
 
@@ -71,6 +72,9 @@ class Hdf5File {
 
   void resize(const std::string& dataset, const Extent& extent);
 
+  /// Who compresses.
+  RowSharing chunks_shared = all_at_once;
+
   using Box = TableBox;
   void write(const std::string& dataset, const Box& box, const double* values);
   void write(const std::string& dataset, const Box& box, const std::int64_t* values);
@@ -90,7 +94,8 @@ class Hdf5File {
   std::optional<HeaderPlace> find(const std::string& name) const;
   Id open(const std::string& dataset) const;
   const Stored& stored(const std::string& dataset, Id set) const;
-  void write(const std::string& dataset, const Box& box, Id type, const void* values);
+  template <class T>
+  void write(const std::string& dataset, const Box& box, Id type, const T* values, T absent);
   template <class T>
   void read(const std::string& dataset, const Box& box, Id type, T* values, T absent) const;
 

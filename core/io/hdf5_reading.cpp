@@ -93,18 +93,10 @@ std::vector<ChunkFilter> filters_of(hid_t content, const std::filesystem::path& 
   return filters;
 }
 
-double volume(const std::vector<hsize_t>& size) {
+double volume(const Extent& size) {
   double values = 1;
-  for (const hsize_t n : size) values *= static_cast<double>(n);
+  for (const auto n : size) values *= static_cast<double>(n);
   return values;
-}
-
-std::vector<hsize_t> size_of(hid_t set, const Checker& check) {
-  const Handle space(check(H5Dget_space(set), "cannot be read"), H5Sclose);
-  std::vector<hsize_t> now(
-      static_cast<std::size_t>(check(H5Sget_simple_extent_ndims(space), "cannot be read")));
-  if (!now.empty()) check(H5Sget_simple_extent_dims(space, now.data(), nullptr), "cannot be read");
-  return now;
 }
 
 /// The size of the one text of fixed length that is there, of `stored` bytes in the file.
@@ -175,7 +167,7 @@ const Hdf5File::Stored& Hdf5File::stored(const std::string& dataset, Id set) con
   const Handle type(check(H5Dget_type(set), "cannot be read"), H5Tclose),
       content(check(H5Dget_create_plist(set), "cannot be read"), H5Pclose);
   if (!holds_numbers(type)) refuse(path_, dataset, "does not hold numbers");
-  const std::vector<hsize_t> size = size_of(set, check);
+  const Extent size = extent_of(set, check);
   if (size.empty()) refuse(path_, dataset, "is one value, not a table");
   const double value_bytes = static_cast<double>(H5Tget_size(type));
   Stored found;
@@ -184,7 +176,7 @@ const Hdf5File::Stored& Hdf5File::stored(const std::string& dataset, Id set) con
     const int rank = static_cast<int>(size.size());
     if (H5Pget_chunk(content, rank, chunk.data()) != rank)
       refuse(path_, dataset, "has chunks of another rank");
-    const double bytes = volume(chunk) * value_bytes;
+    const double bytes = volume({chunk.begin(), chunk.end()}) * value_bytes;
     if (!(bytes > 0 && bytes <= std::numeric_limits<std::uint32_t>::max()))
       refuse(path_, dataset, "has chunks of a size that HDF5 cannot have made");
     found = {
@@ -200,8 +192,7 @@ const Hdf5File::Stored& Hdf5File::stored(const std::string& dataset, Id set) con
 Extent Hdf5File::extent(const std::string& dataset) const {
   const Handle set(open(dataset), H5Dclose);
   const bool in_chunks = !stored(dataset, set).chunk.empty();
-  const std::vector<hsize_t> now = size_of(set, Checker(path_, dataset));
-  Extent extent(now.begin(), now.end());
+  const Extent extent = extent_of(set, Checker(path_, dataset));
   if (const hsize_t bytes = H5Dget_storage_size(set); in_chunks && !plausible(extent, bytes))
     refuse(path_, dataset,
            fmt::format("claims {} values, but {} bytes are stored", fmt::join(extent, " x "), bytes));

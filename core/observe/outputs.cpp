@@ -198,7 +198,7 @@ std::shared_ptr<H5mdTrajectory> Outputs<D>::trajectory_file(const Parameters& p,
       content.keys.push_back(o.key);
       content.units[o.key] = o.unit;
     }
-  return std::make_shared<H5mdTrajectory>(path, std::move(content), setting.existing);
+  return std::make_shared<H5mdTrajectory>(path, std::move(content), setting.existing, setting.chunks_shared);
 }
 
 template <int D>

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/output_file.hpp"
+#include "core/base/row_sharing.hpp"
 #include "core/io/run_record.hpp"
 #include "core/jet/columns.hpp"
 #include "core/jet/decomposition.hpp"
@@ -41,6 +42,7 @@ struct OutputSetting {
   const FieldErrorReport* force_error = nullptr;  ///< null: exact forces
   Columns added = {};                             ///< of the scene, for frames
   const CheckpointParts* resumed = nullptr;       ///< what to go on from, null for a new run
+  RowSharing chunks_shared = all_at_once;         ///< who compresses traj.h5
   std::vector<std::string> changes = {};          ///< directives of a deck that has changed since then
 };
 

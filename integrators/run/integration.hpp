@@ -34,6 +34,13 @@ inline RowSharing rows_shared(Threads threads) {
   };
 }
 
+/// One at a time to whichever thread is free.
+inline RowSharing tasks_shared(Threads threads) {
+  return [threads](Eigen::Index tasks, const auto& of_stretch) {
+    for_each_task(threads, static_cast<int>(tasks), [&](int task) { of_stretch(task, 1); });
+  };
+}
+
 template <int D>
 System<D> system(Scene<D>& scene, RightHandSide<D>& right_hand_side) {
   return {scene.jet,     right_hand_side, scene.nozzle, scene.collector, scene.decomposition(),

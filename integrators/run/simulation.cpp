@@ -10,8 +10,10 @@ namespace treejet {
 
 namespace {
 
-OutputSetting output_setting(OutputSetting outputs, const Columns& added, const Checkpoint* resumed) {
-  outputs.added = added;
+template <int D>
+OutputSetting output_setting(OutputSetting outputs, const System<D>& system, const Checkpoint* resumed) {
+  outputs.added = system.columns;
+  outputs.chunks_shared = tasks_shared(system.threads);
   if (resumed) {
     outputs.existing = OutputFile::Existing::resume;
     outputs.resumed = &resumed->state;
@@ -68,7 +70,7 @@ Simulation<D>::Simulation(const Deck& deck, const System<D>& system, const Setti
       jet_(system.jet),
       nozzle_(system.nozzle),
       decomposition_(system.decomposition),
-      setting_{output_setting(setting.outputs, system.columns, setting.resumed),
+      setting_{output_setting(setting.outputs, system, setting.resumed),
                setting.stop_request,
                nullptr,
                setting.observables,

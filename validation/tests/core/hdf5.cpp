@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 #include <random>
 
@@ -8,6 +9,7 @@
 #include "core/io/atomic_file.hpp"
 #include "core/io/h5md_trajectory.hpp"
 #include "core/io/hdf5_file.hpp"
+#include "integrators/run/integration.hpp"
 #include "validation/support/scratch_directory.hpp"
 
 using namespace treejet;
@@ -125,6 +127,40 @@ TEST_CASE("The bytes of a finished trajectory do not depend on how often it was 
   CHECK(read_whole(path) == expected);
   CHECK(read_whole(place.path / "often" / "traj.xdmf") == read_whole(place.path / "once" / "traj.xdmf"));
   CHECK(std::distance(fs::directory_iterator(place.path / "often"), {}) == 2);
+}
+
+TEST_CASE(
+    "Whoever compresses whole chunks the bytes are the same, and HDF5 makes the same values of the rest") {
+  const ScratchDirectory place;
+  constexpr std::uint64_t rows = 5, columns = 7, grown = 9;
+  std::vector<double> values(rows * columns);
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] = std::sin(double(k));
+  const auto written = [&](const char* name, const RowSharing& chunks_shared, std::uint64_t at_once) {
+    const fs::path path = place.path / name;
+    Hdf5File file(path, Hdf5File::Access::create);
+    file.chunks_shared = chunks_shared;
+    file.dataset("/t", {.extent = {rows, columns}, .chunk = {2, 3}, .fill = std::nan("")});
+    for (std::uint64_t first = 0; first < rows; first += at_once)
+      file.write("/t", {{first, 0}, {std::min(at_once, rows - first), columns}},
+                 values.data() + first * columns);
+    file.resize("/t", {rows, grown});  // shows what the last chunks hold beyond the table that there was
+    file.close();
+    return path;
+  };
+  const fs::path alone = written("alone.h5", all_at_once, rows);
+  CHECK(read_whole(written("shared.h5", tasks_shared({3}), rows)) == read_whole(alone));
+  // rows one by one, or three at once, are parts of chunks, which HDF5 puts together
+  for (const fs::path& path :
+       {alone, written("rows.h5", all_at_once, 1), written("some.h5", all_at_once, 3)}) {
+    CAPTURE(path);
+    std::vector<double> found(rows * grown);
+    Hdf5File(path, Hdf5File::Access::read).read("/t", {{0, 0}, {rows, grown}}, found.data());
+    for (std::uint64_t k = 0; k < found.size(); ++k)
+      if (k % grown < columns)
+        CHECK(found[k] == values[k / grown * columns + k % grown]);
+      else
+        CHECK(std::isnan(found[k]));
+  }
 }
 
 TEST_CASE("A frame that comes in parts is the frame, wherever the file is cut off and continued") {

@@ -55,7 +55,7 @@ std::string_view text(const char (&literal)[size]) {
 // where things are in the file of a table
 constexpr std::string_view extents_of_chunk{"\x40\0\0\0\x08\0\0\0", 8};  // 11 bytes into the layout
 constexpr std::string_view tree{"TREE\1\0\1\0", 8};                      // 24 bytes in front of length, mask
-constexpr std::string_view deflated{"\x78\x01", 2};
+constexpr std::string_view begin_of_stream{"\x78\x01", 2};
 constexpr std::string_view eight_zeros_deflated{"\x78\x01\x63\x60\x80\0\0\0\x08\0\x01", 11};
 
 }  // namespace
@@ -65,14 +65,14 @@ TEST_CASE("A chunk that inflates to less than its extent, or to more, is refused
   const auto path = place.path / "table.h5";
   const std::string whole = file_of_a_table(path, true);
   REQUIRE(table_in(path, whole)[n - 1] == std::sin(double(n - 1)));
-  CHECK_THROWS_WITH(table_in(path, patched(whole, deflated, 0, eight_zeros_deflated)),
+  CHECK_THROWS_WITH(table_in(path, patched(whole, begin_of_stream, 0, eight_zeros_deflated)),
                     Contains("its chunk at 0 is not 512 bytes"));
   // five thousand zeros
   const auto more = text(
       "\x78\x01\xed\xd0\x31\x01\0\0\0\xc2\xa0\xf5\x4f\x6d\x0a\x3f\x88\x40\x61\xc0\x80\x01\x03\x06\x0c\x18\x30"
       "\x60\xc0\x80\x01\x03\x06\x0c\x18\x30\x60\xc0\xc0\x7b\x60\x13\x88\0\x01");
-  CHECK_THROWS_AS(table_in(path, patched(whole, deflated, 0, more)), FileError);
-  CHECK_THROWS_AS(table_in(path, patched(whole, deflated, 30, "damaged")), FileError);
+  CHECK_THROWS_AS(table_in(path, patched(whole, begin_of_stream, 0, more)), FileError);
+  CHECK_THROWS_AS(table_in(path, patched(whole, begin_of_stream, 30, "damaged")), FileError);
 }
 
 TEST_CASE("A chunk is refused if it is said to have gone through other filters than make up its extent") {
