@@ -7,13 +7,15 @@ namespace treejet {
 /// From the rows of another layout to those of this one.
 void ChainDecomposition::arrange(Jet<3>& jet, const Layout& had) {
   const Eigen::ArrayXXd carried = carried_(0, jet.size());
+  const bool carries = carried.cols() > 0;  // no place is named in a table that has no memory
   const Eigen::Index words = words_of_bead(jet);
   const Beads others = sent_by_others(
       ranks_, had, [this](int rank) { return layout_.here(rank); }, words + carried.cols(),
       [&](Rows rows) {
         Beads beads(words + carried.cols(), rows.size());
         beads.topRows(words) = packed(jet, jet.y, rows);
-        beads.bottomRows(carried.cols()) = carried.middleRows(rows.first, rows.size()).transpose();
+        if (carries)
+          beads.bottomRows(carried.cols()) = carried.middleRows(rows.first, rows.size()).transpose();
         return beads;
       });
   const int me = ranks_.rank();
@@ -25,12 +27,13 @@ void ChainDecomposition::arrange(Jet<3>& jet, const Layout& had) {
       here, had.here(me),
       [&](Rows rows, int to) {
         copy_beads(jet, jet.y, rows, all, to);
-        carried_now.middleRows(to, rows.size()) = carried.middleRows(rows.first, rows.size());
+        if (carries) carried_now.middleRows(to, rows.size()) = carried.middleRows(rows.first, rows.size());
       },
       [&](Rows columns, int to) {
         const auto beads = others.middleCols(columns.first, columns.size());
         unpack(beads.topRows(words), all, to);
-        carried_now.middleRows(to, columns.size()) = beads.bottomRows(carried.cols()).transpose();
+        if (carries)
+          carried_now.middleRows(to, columns.size()) = beads.bottomRows(carried.cols()).transpose();
       });
   jet = std::move(all);
   set_carried_(carried_now);
