@@ -10,7 +10,7 @@ for_building="g++ cmake ninja-build libeigen3-dev libfmt-dev libcli11-dev zlib1g
 for_pictures="python3-matplotlib python3-h5py"
 for_tests="catch2 libfftw3-dev libsundials-dev hdf5-tools python3-h5py python3-ase python3-matplotlib python3-jinja2
   python3-pandas python3-pytest dpkg-dev file mkdocs"
-for_ci="clang libomp-dev libclang-rt-dev clang-format doxygen chromium python3-pil python3-venv"
+for_ci="clang libomp-dev libclang-rt-dev llvm gcovr clang-format doxygen chromium python3-pil python3-venv"
 from_pypi="h5py numpy ovito==3.17.2 MDAnalysis==2.11.0 chemfiles==0.10.4 gsd==5.0.1 vtk==9.7.2 ase pandas"
 
 log=build/do.log
