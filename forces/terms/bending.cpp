@@ -78,12 +78,6 @@ Vec<3> BendingMoment::elastic(const Chain<3>& c, int i) const {
   return modulus(set_, bend.volume_by_length) / bend.l * bend.K;
 }
 
-double BendingMoment::elastic_energy(const Chain<3>& c) const {
-  double sum = 0;
-  for (int i = 1; i < c.beads; ++i) sum += elastic(c, i).dot(tangent(c, i - 1) - tangent(c, i)) / 2;
-  return sum;
-}
-
 Vec<3> Bending::force(const Chain<3>& c, int e) const {
   const Vec<3> t = tangent(c, e), step = moment_.at(c, e + 1) - moment_.at(c, e);
   return c.inverse_length[e] * (step - t * t.dot(step));

@@ -56,9 +56,8 @@ class BendingMoment {
   Vec<3> at(const Chain<3>& c, int bead) const;
   /// dM/dt.
   Vec<3> rate(const Chain<3>& c, int bead) const;
-  /// B / l K, what M is of a thread bent faster than it relaxes, and the energy of that.
+  /// B / l K, what M is of a thread bent faster than it relaxes.
   Vec<3> elastic(const Chain<3>& c, int bead) const;
-  double elastic_energy(const Chain<3>& c) const;
 
   const Setting& setting() const { return set_; }
 
