@@ -32,7 +32,7 @@ class DenseOutput {
 
   /// Beads first, first + 1, ... of the state at t, as many as `y` has rows.
   void at(double t, Eigen::Index first, State<D>& y) const {
-    positions_at(t, first, y);
+    positions_at(t, first, y, 0, y.rows());
     const double h = end_.t - begin_.t, s = (t - begin_.t) / h, s2 = s * s;
     const double v = 30 * s2 * (1 - 2 * s + s2) / h;
     const std::array<double, 6> of_velocity = {-v,
@@ -51,8 +51,9 @@ class DenseOutput {
     }
   }
 
-  /// The same of their positions alone; the other columns stay as they are.
-  void positions_at(double t, Eigen::Index first, State<D>& y) const {
+  /// Positions alone of beads first, first + 1, ... into so many rows of `y`; its other columns stay as they
+  /// are.
+  void positions_at(double t, Eigen::Index first, State<D>& y, Eigen::Index row, Eigen::Index rows) const {
     const double h = end_.t - begin_.t, s = (t - begin_.t) / h, s2 = s * s, s3 = s2 * s;
     const double x = s3 * (10 - 15 * s + 6 * s2);
     const std::array<double, 6> of_position = {1 - x,
@@ -61,7 +62,8 @@ class DenseOutput {
                                                -h * s3 * (4 - 7 * s + 3 * s2),
                                                h * h / 2 * (s2 - s3 * (3 - 3 * s + s2)),
                                                h * h / 2 * s3 * (1 - 2 * s + s2)};
-    for (int k = 0; k < D; ++k) weighted_sum(nullptr, of_position, ends(k, first), y.rows(), y.col(k).data());
+    for (int k = 0; k < D; ++k)
+      weighted_sum(nullptr, of_position, ends(k, first), rows, y.col(k).data() + row);
   }
 
   /// Third derivative of the position of bead i at the end: what the next step may expect of its

@@ -25,12 +25,16 @@ void write_cell(const Tree& tree, int cell, int children, Rows points, Message& 
     message.insert(message.end(), values->begin() + points.first, values->begin() + points.last);
 }
 
+/// Whether no leaf inside the boundary asks for more of a cell than its moments.
+bool is_closed(const Cells& cells, int cell, const BoundaryTree& boundary) {
+  return boundary.closes({cells.centre(0)[cell], cells.centre(1)[cell], cells.centre(2)[cell]},
+                         cells.critical_radius()[cell]);
+}
+
 /// A cell, and below it all that a leaf inside the boundary may ask for.
 void write(const Tree& tree, int cell, const BoundaryTree& boundary, Message& message) {
   const Cells& cells = tree.cells;
-  if (boundary.closes({cells.centre(0)[cell], cells.centre(1)[cell], cells.centre(2)[cell]},
-                      cells.critical_radius()[cell]))
-    return write_cell(tree, cell, 0, {}, message);
+  if (is_closed(cells, cell, boundary)) return write_cell(tree, cell, 0, {}, message);
   if (!cells.opens(cell)) return write_cell(tree, cell, 0, cells.points_of(cell), message);
   const CellRange children = cells.opened(cell);
   write_cell(tree, cell, children.last - children.first, {}, message);
@@ -89,13 +93,7 @@ void EssentialTree::graft(Tree& tree, const TreeShape& shape, const WideKernels&
   prune(tree);
   traffic_ = {};
   summaries_.begin(own_summary(tree, ranks_.size()), shape, kernels);
-  for (int k = 0; k < summaries_.rounds(); ++k) {
-    const SummaryTree::Round round = summaries_.round(k);
-    for (const int rank : round.to) send(rank, round.message);
-    std::vector<Message> in;
-    for (const int rank : round.from) in.push_back(receive(rank));
-    summaries_.take(k, in);
-  }
+  exchange_summaries();
   for (const SummaryTree::Near& near : summaries_.near())
     send(near.group, message(tree, near.summary, shape.opening));
   std::vector<Message> in;
@@ -113,6 +111,16 @@ void EssentialTree::graft(Tree& tree, const TreeShape& shape, const WideKernels&
   traffic_.points = tree.points.all() - tree.points.size();
   for (const Message& message : in) traffic_.partners += !message.empty();
   bytes_ = traffic_.sent + traffic_.received;
+}
+
+void EssentialTree::exchange_summaries() {
+  for (int k = 0; k < summaries_.rounds(); ++k) {
+    const SummaryTree::Round round = summaries_.round(k);
+    for (const int rank : round.to) send(rank, round.message);
+    std::vector<Message> in;
+    for (const int rank : round.from) in.push_back(receive(rank));
+    summaries_.take(k, in);
+  }
 }
 
 void EssentialTree::send(int to, const Message& message) {
@@ -133,10 +141,7 @@ Summary EssentialTree::own_summary(const Tree& tree, int ranks) {
 Message EssentialTree::message(const Tree& tree, const Summary& reader, double opening) {
   Message message;
   const BoundaryTree boundary(reader.balls, opening);
-  const Cells& cells = tree.cells;
-  if (!boundary.closes({cells.centre(0)[0], cells.centre(1)[0], cells.centre(2)[0]},
-                       cells.critical_radius()[0]))
-    write(tree, 0, boundary, message);
+  if (!is_closed(tree.cells, 0, boundary)) write(tree, 0, boundary, message);
   return message;
 }
 

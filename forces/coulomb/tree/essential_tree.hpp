@@ -44,6 +44,7 @@ class EssentialTree {
   std::int64_t bytes() const { return bytes_; }  ///< of messages, held at the most
 
  private:
+  void exchange_summaries();
   void send(int to, const Message& message);
   Message receive(int from);
 

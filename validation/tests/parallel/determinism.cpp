@@ -2,9 +2,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/observe/window.hpp"
 #include "validation/support/run.hpp"
 
 using namespace treejet;
+using Catch::Matchers::WithinRel;
 
 namespace {
 
@@ -95,6 +97,36 @@ TEST_CASE("Two runs of the same deck have the same bits") {
     run.to(2e-3);
     if (again == 0) first = run.jet().y;
     CHECK(same_bits<3>(run.jet().y, first));
+  }
+}
+
+TEST_CASE("The path length within a step has the same bits on 1, 2, 3 and 4 threads") {
+  const Eigen::Index rows = rows_worth_sharing + 12'345;
+  const double h = 0.01;
+  // free flight with an acceleration of its own for each bead
+  SolutionPoint<3> from{0.1, State<3>(rows), State<3>(rows)};
+  for (Eigen::Index k = 0; k < from.y.size(); ++k)
+    from.y(k) = std::sin(double(k + 1)), from.slope(k) = std::cos(double(k + 1));
+  SolutionPoint<3> to = from;
+  to.t += h;
+  const auto [x, v] = std::pair{Eigen::seqN(0, 3), Eigen::seqN(velocity_column<3>, 3)};
+  const auto all = Eigen::all;
+  to.y(all, x) += h * from.y(all, v) + h * h / 2 * from.slope(all, v);
+  to.y(all, v) += h * from.slope(all, v);
+  const double before = path_length<3>(from.y, {0, 0, 0}), after = path_length<3>(to.y, {0, 0, 0});
+  const Run<3> run(example("pvp"));
+  double one = 0;
+  for (int threads : {1, 2, 3, 4}) {
+    Statistics<3> statistics(run.scene.nozzle, run.scene.collector);
+    statistics.follow_path();
+    statistics.rows_shared = rows_shared({threads});
+    statistics.begin_window(from.t);
+    statistics.integrate({from, to}, to.t);
+    const double length = statistics.window().path_length;
+    if (threads == 1) one = length;
+    CHECK(length == one);
+    // the mean of the ends errs by h^2 / 12 times the second derivative of the length, which is as the length
+    CHECK_THAT(length, WithinRel((before + after) / 2 * h, h * h));
   }
 }
 
