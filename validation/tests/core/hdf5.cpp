@@ -143,6 +143,7 @@ TEST_CASE(
     for (std::uint64_t first = 0; first < rows; first += at_once)
       file.write("/t", {{first, 0}, {std::min(at_once, rows - first), columns}},
                  values.data() + first * columns);
+    file.write("/t", {{0, 0}, {1, columns}}, values.data());  // once more, which leaves the row below
     file.resize("/t", {rows, grown});  // shows what the last chunks hold beyond the table that there was
     file.close();
     return path;

@@ -196,6 +196,26 @@ TEST_CASE("Every key of the documented table has an observable in both dimension
   CHECK_THROWS(observable<1>("velocity"));
 }
 
+TEST_CASE(
+    "Scaled observables are those in CGS by the scales; charge and mass of a bead are in the fluid's ratio") {
+  Run<3> run(example("pvp"));
+  const auto last = recorded<3>(run,
+                                {"x", "xs", "y", "ys", "z", "zs", "yz", "yzs", "vx", "vxs", "vy", "vys", "vz",
+                                 "vzs", "st", "sts", "mass", "q"},
+                                1e-3, 2e-3)
+                        .back();
+  const Scales s = run.unit;
+  const double of_pair[] = {s.length,   s.length,   s.length,   s.length,
+                            s.velocity, s.velocity, s.velocity, s.stress};
+  for (std::size_t k = 0; k < std::size(of_pair); ++k) {
+    CAPTURE(k);
+    CHECK(last[2 * k] != 0);
+    CHECK(last[2 * k] == Approx(last[2 * k + 1] * of_pair[k]).epsilon(round_off));
+  }
+  CHECK(last[17] / last[16] ==
+        Approx(run.parameters.density_charge / run.parameters.density_mass).epsilon(round_off));
+}
+
 TEST_CASE("Rows stand at exactly the asked times, whatever the steps") {
   Run<1> run(with_steps(example("single-bead"), Scheme::heun, 7e-5));
   const auto r = recorded<1>(run, {"t"}, 1e-3, 0.05);

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <regex>
 
+#include "core/io/output_files.hpp"
 #include "integrators/run/simulation.hpp"
 #include "validation/support/run.hpp"
 #include "validation/support/scratch_directory.hpp"
@@ -38,4 +39,28 @@ TEST_CASE("The summary's volumes and current are those of the beads that were in
   const double statcoulombs = flow / 3600 / (microlitres / 1000) * s.charge;
   CHECK(number("and ([0-9.e+-]+) nA") == Approx(statcoulombs / 2997924580 * 1e9).epsilon(2 * digits));
   CHECK_THAT(text, Catch::Contains("traj.xyz leaves out the beads nearest to the nozzle"));
+}
+
+TEST_CASE("The files of a run are as large as its plan says, to a third") {
+  const ScratchDirectory place;
+  const Deck deck = read_deck(TREEJET_SOURCE_DIR "/validation/decks/stream.dat",
+                              {"points 400", "final time 5.d-4", "timestep 1.d-6", "integrator heun",
+                               "inserting no", "removing no", "print time 1.d-6", "printstat list t x y z",
+                               "print xyz 5.d-6", "print xyz maxnum 500", "print hdf5 1.d-6"});
+  Scene<3> scene = compose<3>(deck.parameters, {1});
+  Simulation<3> simulation(deck, system(scene),
+                           {{place.path, OutputFile::Existing::keep, true, false, {}, {}, nullptr},
+                            [] { return StopRequest::go_on; },
+                            nullptr});
+  const double points = double(scene.jet.size()) + 1;  // and the nozzle
+  REQUIRE(simulation.finish());
+  const std::vector<OutputFileKind> files = output_files(deck.parameters);
+  REQUIRE(files.size() == 5);
+  for (const OutputFileKind& file : files) {
+    if (file.name == run_record_name) continue;  // goes by the deck's own words
+    CAPTURE(file.name);
+    const auto found = double(std::filesystem::file_size(place.path / file.name));
+    // a number takes 3 to 15 places in traj.xyz, and in traj.h5 a third to two thirds of its bytes
+    CHECK(found == Approx(file.bytes(deck.parameters, points)).epsilon(1. / 3));
+  }
 }

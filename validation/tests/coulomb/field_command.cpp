@@ -79,6 +79,25 @@ TEST_CASE("The reported error is the difference from the direct sum") {
   CHECK(error.l2 == Approx(0.01 / std::sqrt(500.0)));
 }
 
+TEST_CASE("Of more than 20,000 points a sample is compared, by the size of the field at all of them") {
+  constexpr int n = 20'480;
+  PointSet set = coil(n, 50, 0.5);
+  for (std::size_t i = n - 100; i < n; ++i) set.q[i] *= 1000;  // a hundred hold nearly all of the field
+  FieldSet field(n);
+  coulomb_direct<3>(set.view(), {0, n}, field.view());
+  double size2 = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    size2 += field.e[0][i] * field.e[0][i] + field.e[1][i] * field.e[1][i] + field.e[2][i] * field.e[2][i];
+  const double rms = std::sqrt(size2 / n), off = 1e-3 * rms;
+  for (double& e : field.e[1]) e += off;
+  const FieldError error = field_error(set.view(), field.view(), {2});
+  CHECK(error.targets == 2048);
+  // the size is that of the wrong field, which differs by a thousandth
+  CHECK(error.l2 == Approx(1e-3).epsilon(2e-3));
+  CHECK(error.to_rms.median == Approx(error.l2).epsilon(1e-9));
+  CHECK(error.to_rms.max == Approx(error.l2).epsilon(1e-9));
+}
+
 TEST_CASE("The field command states method, times and an error within the accuracy asked for") {
   const PointSet set = whipping_jet(3000);
   std::ostringstream table;

@@ -44,8 +44,8 @@ def test_a_run_of_the_independent_program_gives_the_table(independent):
 
 def test_the_error_that_a_second_run_tells_is_the_error_of_the_first(tmp_path):
     settings = ["tolerance 1e-6", "final time 0.02", "print time 0.005", "printstat list t x y z vx vy vz cpu"]
-    command = [os.environ["TREEJET"], "run", DECKS["case3"], "--out", tmp_path, "--estimate-error", "--quiet"]
-    subprocess.run(command + [word for s in settings for word in ("--set", s)], check=True)
+    command = [os.environ["TREEJET"], "run", DECKS["case3"], "--out", tmp_path, "--estimate-error"]
+    run = subprocess.run(command + [word for s in settings for word in ("--set", s)], check=True, capture_output=True, text=True)
     found, told = (np.loadtxt(tmp_path / name) for name in ("statdat.dat", "statdat.error.dat"))
     assert told.shape[1] == found.shape[1] - 1  # without the wall clock
     table = np.loadtxt(VALIDATION / "reference/independent-case3.csv", delimiter=",", skiprows=2)
@@ -61,6 +61,9 @@ def test_the_error_that_a_second_run_tells_is_the_error_of_the_first(tmp_path):
     of_x, summary = recorded["observables"]["x[cm]"], json.loads((tmp_path / "run.json").read_text())["means"]["x"]
     assert of_x["mean"] == summary["mean"]  # one rule for both
     assert of_x["steady"] == summary["steady"]
+    label, of_a_row, mean, of_mean, *rest = next(line for line in run.stdout.splitlines() if line.strip().startswith("x[cm]")).split()
+    assert (of_a_row, mean, of_mean) == (f"{of_x['row']:.2g}", f"{of_x['mean']:.8g}", f"{of_x['of_mean']:.2g}")
+    assert ("steady" in rest) != of_x["steady"] and str(of_x["from_row"]) in rest
     rows = told[of_x["from_row"] :, 1]
     assert len(rows) == summary["values"]
     assert of_x["of_mean"] == pytest.approx(abs(rows.mean()), rel=1e-12)
