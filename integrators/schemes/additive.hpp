@@ -42,25 +42,46 @@ class AdditiveRungeKutta final : public Stepper<D> {
     rest_[0] = from.slope;
     linear_[0].setZero(from.y.rows(), from.y.cols());
     for (int i = 1; i <= last; ++i) {
-      known_.setZero(from.y.rows(), from.y.cols());
-      for (int j = 0; j < i; ++j)
-        known_ += h * (Tableau::explicit_part[i][j] * rest_[j] + Tableau::implicit_part[i][j] * linear_[j]);
+      sum_known_stages(i, h);
       Z_ = known_;
       solver_.solve(Z_);
-      linear_[i] = (Z_ - known_) / s;
-      next = from.y + Z_;
+      this->set(linear_[i], (Z_ - known_) / s);
+      this->set(next, from.y + Z_);
       f(jet, from.t + Tableau::c[i] * h, next, rest_[i]);
-      rest_[i] -= linear_[i];
+      this->set(rest_[i], rest_[i] - linear_[i]);
     }
-    this->error.setZero(from.y.rows(), from.y.cols());
-    for (int i = 0; i <= last; ++i) {
-      next += h * (Tableau::b[i] - Tableau::explicit_part[last][i]) * rest_[i];
-      this->error += h * (Tableau::b[i] - Tableau::partner[i]) * (rest_[i] + linear_[i]);
-    }
+    conclude(h, next);
     solver_.solve(this->error);
   }
 
  private:
+  /// h sum_j ( explicit_ij rest_j + implicit_ij J Z_j )
+  void sum_known_stages(int i, double h) {
+    known_.resize(linear_[0].rows(), linear_[0].cols());
+    for_each_stretch(this->rows_shared, known_.rows(), [&](Eigen::Index first, Eigen::Index count) {
+      auto known = known_.middleRows(first, count);
+      known.setZero();
+      for (int j = 0; j < i; ++j)
+        known += h * (Tableau::explicit_part[i][j] * rest_[j].middleRows(first, count) +
+                      Tableau::implicit_part[i][j] * linear_[j].middleRows(first, count));
+    });
+  }
+
+  /// From the last stage to `next`, and the two solutions' difference.
+  void conclude(double h, State<D>& next) {
+    constexpr int last = Tableau::stages - 1;
+    this->error.resize(next.rows(), next.cols());
+    for_each_stretch(this->rows_shared, next.rows(), [&](Eigen::Index first, Eigen::Index count) {
+      auto error = this->error.middleRows(first, count);
+      error.setZero();
+      for (int i = 0; i <= last; ++i) {
+        const auto rest = rest_[i].middleRows(first, count), linear = linear_[i].middleRows(first, count);
+        next.middleRows(first, count) += h * (Tableau::b[i] - Tableau::explicit_part[last][i]) * rest;
+        error += h * (Tableau::b[i] - Tableau::partner[i]) * (rest + linear);
+      }
+    });
+  }
+
   LocalJacobian<D> J_;
   ChainSolver<D> solver_;
   State<D> known_, Z_;

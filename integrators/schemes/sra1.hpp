@@ -20,7 +20,8 @@
 
 namespace treejet {
 
-/// dW and Z of a component of the velocity of a bead, by its number, over the step of length h from t.
+/// dW and Z of a component of the velocity of a bead, by its number, over the step of length h from t. Of a
+/// long table it is asked by several threads at once.
 using WienerPath = std::function<std::array<double, 2>(std::int64_t bead, int component, double t, double h)>;
 
 /// Drawn for the bead and the time alone.
@@ -46,11 +47,11 @@ class Sra1 final : public Stepper<D> {
             State<D>& next) override {
     draw(jet, from.t, h);
     const auto& k1 = from.slope;
-    stage_ = from.y + 3 * h / 4 * k1;
-    stage_.template middleCols<D>(velocity_column<D>) += 3 / (2 * h) * Z_;
+    this->set(stage_, from.y + 3 * h / 4 * k1);
+    add(3 / (2 * h), Z_, stage_);
     f(jet, from.t + 3 * h / 4, stage_, k2_);
-    next = from.y + h / 3 * (k1 + 2 * k2_);
-    next.template middleCols<D>(velocity_column<D>) += dW_;
+    this->set(next, from.y + h / 3 * (k1 + 2 * k2_));
+    add(1, dW_, next);
   }
 
  private:
@@ -61,14 +62,23 @@ class Sra1 final : public Stepper<D> {
     dW_.setZero(jet.size(), D);
     Z_.setZero(jet.size(), D);
     const IdColumn number = all_.numbers(jet);
-    for (Eigen::Index i = 0; i < jet.size(); ++i) {
-      const double b = std::sqrt(noise_.squared_amplitude(1 / jet.mass[i]));
-      for (int k = 0; k < D && b > 0; ++k) {
-        const auto [dW, Z] = path_(number[i], k, t, h);
-        dW_(i, k) = b * dW;
-        Z_(i, k) = b * Z;
+    for_each_stretch(this->rows_shared, jet.size(), [&](Eigen::Index first, Eigen::Index count) {
+      for (Eigen::Index i = first; i < first + count; ++i) {
+        const double b = std::sqrt(noise_.squared_amplitude(1 / jet.mass[i]));
+        for (int k = 0; k < D && b > 0; ++k) {
+          const auto [dW, Z] = path_(number[i], k, t, h);
+          dW_(i, k) = b * dW;
+          Z_(i, k) = b * Z;
+        }
       }
-    }
+    });
+  }
+
+  void add(double weight, const Velocities& change, State<D>& y) const {
+    for_each_stretch(this->rows_shared, y.rows(), [&](Eigen::Index first, Eigen::Index count) {
+      y.template middleCols<D>(velocity_column<D>).middleRows(first, count) +=
+          weight * change.middleRows(first, count);
+    });
   }
 
   Noise noise_;
