@@ -58,12 +58,12 @@ class AdditiveRungeKutta final : public Stepper<D> {
   /// h sum_j ( explicit_ij rest_j + implicit_ij J Z_j )
   void sum_known_stages(int i, double h) {
     known_.resize(linear_[0].rows(), linear_[0].cols());
-    for_each_stretch(this->rows_shared, known_.rows(), [&](Eigen::Index first, Eigen::Index count) {
-      auto known = known_.middleRows(first, count);
+    this->share(known_.rows(), [&](const auto& rows) {
+      auto&& known = rows(known_);
       known.setZero();
       for (int j = 0; j < i; ++j)
-        known += h * (Tableau::explicit_part[i][j] * rest_[j].middleRows(first, count) +
-                      Tableau::implicit_part[i][j] * linear_[j].middleRows(first, count));
+        known += h * (Tableau::explicit_part[i][j] * rows(rest_[j]) +
+                      Tableau::implicit_part[i][j] * rows(linear_[j]));
     });
   }
 
@@ -71,13 +71,12 @@ class AdditiveRungeKutta final : public Stepper<D> {
   void conclude(double h, State<D>& next) {
     constexpr int last = Tableau::stages - 1;
     this->error.resize(next.rows(), next.cols());
-    for_each_stretch(this->rows_shared, next.rows(), [&](Eigen::Index first, Eigen::Index count) {
-      auto error = this->error.middleRows(first, count);
+    this->share(next.rows(), [&](const auto& rows) {
+      auto &&end = rows(next), &&error = rows(this->error);
       error.setZero();
       for (int i = 0; i <= last; ++i) {
-        const auto rest = rest_[i].middleRows(first, count), linear = linear_[i].middleRows(first, count);
-        next.middleRows(first, count) += h * (Tableau::b[i] - Tableau::explicit_part[last][i]) * rest;
-        error += h * (Tableau::b[i] - Tableau::partner[i]) * (rest + linear);
+        end += h * (Tableau::b[i] - Tableau::explicit_part[last][i]) * rows(rest_[i]);
+        error += h * (Tableau::b[i] - Tableau::partner[i]) * (rows(rest_[i]) + rows(linear_[i]));
       }
     });
   }

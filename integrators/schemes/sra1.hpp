@@ -75,9 +75,8 @@ class Sra1 final : public Stepper<D> {
   }
 
   void add(double weight, const Velocities& change, State<D>& y) const {
-    for_each_stretch(this->rows_shared, y.rows(), [&](Eigen::Index first, Eigen::Index count) {
-      y.template middleCols<D>(velocity_column<D>).middleRows(first, count) +=
-          weight * change.middleRows(first, count);
+    this->share(y.rows(), [&](const auto& rows) {
+      rows(y).template middleCols<D>(velocity_column<D>) += weight * rows(change);
     });
   }
 

@@ -31,11 +31,17 @@ class Stepper {
   template <class Expression>
   void set(State<D>& out, const Expression& value) const {
     out.resize(value.rows(), value.cols());
-    for_each_stretch(rows_shared, value.rows(), [&](Eigen::Index first, Eigen::Index count) {
-      if (count == value.rows())
-        out = value;
+    share(value.rows(), [&](const auto& rows) { rows(out) = rows(value); });
+  }
+
+  /// Calls f(rows) for stretches of tables of n rows, maybe at the same time: rows(table) are those of one.
+  template <class OfStretch>
+  void share(Eigen::Index n, const OfStretch& f) const {
+    for_each_stretch(rows_shared, n, [&](Eigen::Index first, Eigen::Index count) {
+      if (count == n)
+        f([](auto& table) -> auto& { return table; });
       else
-        out.middleRows(first, count) = value.middleRows(first, count);
+        f([=](auto& table) { return table.middleRows(first, count); });
     });
   }
 };
