@@ -10,16 +10,24 @@
 
 using namespace treejet;
 
+namespace {
+
+Simulation<3> quiet_simulation(const Deck& deck, Scene<3>& scene, const std::filesystem::path& directory) {
+  return Simulation<3>(deck, system(scene),
+                       {{directory, OutputFile::Existing::keep, true, false, {}, {}, nullptr},
+                        [] { return StopRequest::go_on; },
+                        nullptr});
+}
+
+}  // namespace
+
 TEST_CASE("The summary's volumes and current are those of the beads that were inserted and have arrived") {
   const ScratchDirectory place;
   const Deck deck = read_deck(TREEJET_SOURCE_DIR "/validation/decks/stream.dat",
                               {"points 60", "final time 5.d-4", "timestep 1.d-6", "integrator heun",
                                "print xyz 1.d-4", "print xyz maxnum 20"});
   Scene<3> scene = compose<3>(deck.parameters, {1});
-  Simulation<3> simulation(deck, system(scene),
-                           {{place.path, OutputFile::Existing::keep, true, false, {}, {}, nullptr},
-                            [] { return StopRequest::go_on; },
-                            nullptr});
+  Simulation<3> simulation = quiet_simulation(deck, scene, place.path);
   REQUIRE(simulation.finish());
   const std::string text = simulation.summary();
   CAPTURE(text);
@@ -48,16 +56,13 @@ TEST_CASE("The files of a run are as large as its plan says, to a third") {
                                "inserting no", "removing no", "print time 1.d-6", "printstat list t x y z",
                                "print xyz 5.d-6", "print xyz maxnum 500", "print hdf5 1.d-6"});
   Scene<3> scene = compose<3>(deck.parameters, {1});
-  Simulation<3> simulation(deck, system(scene),
-                           {{place.path, OutputFile::Existing::keep, true, false, {}, {}, nullptr},
-                            [] { return StopRequest::go_on; },
-                            nullptr});
+  Simulation<3> simulation = quiet_simulation(deck, scene, place.path);
   const double points = double(scene.jet.size()) + 1;  // and the nozzle
   REQUIRE(simulation.finish());
   const std::vector<OutputFileKind> files = output_files(deck.parameters);
   REQUIRE(files.size() == 5);
   for (const OutputFileKind& file : files) {
-    if (file.name == run_record_name) continue;  // goes by the deck's own words
+    if (std::string_view(file.name) == run_record_name) continue;  // goes by the deck's own words
     CAPTURE(file.name);
     const auto found = double(std::filesystem::file_size(place.path / file.name));
     // a number takes 3 to 15 places in traj.xyz, and in traj.h5 a third to two thirds of its bytes

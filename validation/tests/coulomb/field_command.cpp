@@ -19,6 +19,13 @@ std::string file(const std::string& name, const std::string& text) {
   return path;
 }
 
+double root_mean_square(const FieldSet& field) {
+  double sum = 0;
+  for (const auto& values : field.e)
+    for (double e : values) sum += e * e;
+  return std::sqrt(sum / static_cast<double>(field.e[0].size()));
+}
+
 }  // namespace
 
 TEST_CASE("The field command reads columns in any order and writes the field beside the points") {
@@ -67,10 +74,7 @@ TEST_CASE("The reported error is the difference from the direct sum") {
   FieldSet field(500);
   coulomb_direct<3>(set.view(), {0, 500}, field.view());
   CHECK(field_error(set.view(), field.view(), {1}).l2 == 0);
-  double size2 = 0;
-  for (const auto& values : field.e)
-    for (double e : values) size2 += e * e;
-  const double rms = std::sqrt(size2 / 500);
+  const double rms = root_mean_square(field);
   field.e[1][17] += 0.01 * rms;
   const FieldError error = field_error(set.view(), field.view(), {1});
   CHECK(error.targets == 500);
@@ -85,10 +89,7 @@ TEST_CASE("Of more than 20,000 points a sample is compared, by the size of the f
   for (std::size_t i = n - 100; i < n; ++i) set.q[i] *= 1000;  // a hundred hold nearly all of the field
   FieldSet field(n);
   coulomb_direct<3>(set.view(), {0, n}, field.view());
-  double size2 = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    size2 += field.e[0][i] * field.e[0][i] + field.e[1][i] * field.e[1][i] + field.e[2][i] * field.e[2][i];
-  const double rms = std::sqrt(size2 / n), off = 1e-3 * rms;
+  const double off = 1e-3 * root_mean_square(field);
   for (double& e : field.e[1]) e += off;
   const FieldError error = field_error(set.view(), field.view(), {2});
   CHECK(error.targets == 2048);
