@@ -64,9 +64,15 @@ Frame frame(const Jet<D>& jet, const Nozzle<D>& nozzle, const Scales& scales, do
             const Material& material = {}, bool to_nozzle = true) {
   const Columns& added = material.added;
   const Eigen::Index beads = to_nozzle ? jet.size() : jet.size() - 1;
+  const auto points = static_cast<std::size_t>(to_nozzle ? beads + 1 : beads);
   Frame f;
   f.time = jet.t * scales.time;
-  std::vector<double> position, velocity, stress, charge, mass, radius;
+  f.id.reserve(points);
+  const FrameColumns columns = frame_columns(frame_columns_of(added));
+  for (const FrameColumn& column : columns)
+    f.columns.emplace_back().reserve(points * static_cast<std::size_t>(column.width));
+  auto &position = f.columns[0], &velocity = f.columns[1], &stress = f.columns[2], &charge = f.columns[3],
+       &mass = f.columns[4], &radius = f.columns[5];
   const auto add = [](std::vector<double>& to, const Vec<D>& v, double unit) {
     for (int k = 0; k < 3; ++k) to.push_back(k < D ? unit * v[k < D ? k : 0] : 0);
   };
@@ -93,9 +99,8 @@ Frame frame(const Jet<D>& jet, const Nozzle<D>& nozzle, const Scales& scales, do
     mass.push_back(0);
     radius.push_back(nozzle_radius);
   }
-  f.columns = {position, velocity, stress, charge, mass, radius};
   for (std::size_t k = 0; k < added.size(); ++k) {
-    std::vector<double>& values = f.columns.emplace_back();
+    std::vector<double>& values = f.columns[columns.size() - added.size() + k];
     for (Eigen::Index i = 0; i < beads; ++i)
       values.push_back(jet.y(i, own_columns<D> + static_cast<Eigen::Index>(k)) * added[k].scale);
     if (to_nozzle) values.push_back(added[k].at_birth * added[k].scale);

@@ -18,8 +18,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// While it grows a frame is a chunk, and not compressed: it is written twice, and a third time in the end.
-constexpr H5md::Chunk growing{1, 256, /*compressed*/ false};
+/// While the file grows a chunk is of one frame, and not compressed: it is written twice, and a third time in
+/// the end. Small ones waste little on short jets; of a long one they would be so many that HDF5 took longer
+/// to find them than to write them.
+H5md::Chunk growing_chunk(std::uint64_t points) {
+  constexpr std::uint64_t small = 256, large = 8192;
+  return {1, points > points_at_once ? large : small, /*compressed*/ false};
+}
 constexpr std::size_t most_pending = 256;               ///< frames in memory
 constexpr std::size_t most_pending_points = 1'000'000;  ///< of them together
 constexpr int flush_share = 50;                         ///< a flush takes at most this part of the time
@@ -53,7 +58,7 @@ H5mdTrajectory::H5mdTrajectory(const fs::path& path, H5md::Content content, Outp
   if (!path_.parent_path().empty()) fs::create_directories(path_.parent_path(), error);
   if (error) throw FileError(fmt::format("{}: {}", path_.parent_path().string(), error.message()));
   fs::remove(twin(), error);
-  H5md(twin(), content_, growing).close();
+  H5md(twin(), content_, growing_chunk(0)).close();
   put_in_place(twin(), path_);
 }
 
@@ -69,7 +74,16 @@ fs::path H5mdTrajectory::twin() const {
   return path_.string() + ".next";
 }
 
+/// The chunks of a file are for good: with its first frame it is made anew if these are not for such a jet.
+void H5mdTrajectory::begin_with(std::uint64_t points) {
+  const H5md::Chunk chunk = growing_chunk(points);
+  if (chunk.points == growing_chunk(0).points) return;
+  flush();
+  rewrite(chunk);
+}
+
 void H5mdTrajectory::append(Frame frame) {
+  if (frames_ == 0) begin_with(frame.points());
   frame.step = static_cast<std::int64_t>(frames_++);
   add_grid(frame.time, frame.points());
   pending_.frames.push_back(std::move(frame));
@@ -83,6 +97,7 @@ void H5mdTrajectory::append(Row row) {
 }
 
 void H5mdTrajectory::append(double time, std::uint64_t points, const Parts& parts) {
+  if (frames_ == 0) begin_with(points);
   flush();
   bring_twin_up_to_date();
   H5md file(twin(), Hdf5File::Access::append);
@@ -167,7 +182,7 @@ void H5mdTrajectory::sync() {
 
 void H5mdTrajectory::finish() {
   flush();
-  rewrite(/*final_form*/ true);
+  rewrite(final_chunk(H5md(path_, Hdf5File::Access::read)));
   write_xdmf();
 }
 
@@ -176,12 +191,12 @@ void H5mdTrajectory::continue_from(std::uint64_t frames, std::uint64_t rows) {
   last_is_behind_ = false;
   frames_ = frames;
   rows_ = rows;
-  rewrite(/*final_form*/ false);
+  rewrite(growing_chunk(H5md(path_, Hdf5File::Access::read).points()));
   write_xdmf();
 }
 
 /// Puts the frames and rows so far, all of which are in the file, into a new one that takes its place.
-void H5mdTrajectory::rewrite(bool final_form) {
+void H5mdTrajectory::rewrite(const H5md::Chunk& chunk) {
   std::error_code error;
   fs::remove(twin(), error);
   twin_ = false;
@@ -189,9 +204,8 @@ void H5mdTrajectory::rewrite(bool final_form) {
   if (file.frames() < frames_ || file.rows() < rows_)
     throw FileError(fmt::format("{}: expected {} frames and {} rows, found {} and {}", path_.string(),
                                 frames_, rows_, file.frames(), file.rows()));
-  const H5md::Chunk chunk = final_form ? final_chunk(file) : growing;
-  const std::uint64_t at_once =
-      final_form ? chunk.frames : 64;  // whole chunks, so that none is compressed twice
+  // whole chunks, so that none is compressed twice
+  const std::uint64_t at_once = chunk.compressed ? chunk.frames : 64;
   H5md fresh(twin(), content_, chunk);
   fresh.share_chunks(chunks_shared_);
   xdmf_ = {};

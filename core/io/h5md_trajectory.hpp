@@ -69,7 +69,8 @@ class H5mdTrajectory {
   void bring_twin_up_to_date();
   void exchange_with_twin();
   void write_xdmf() const;
-  void rewrite(bool final_form);
+  void begin_with(std::uint64_t points);
+  void rewrite(const H5md::Chunk& chunk);
 
   std::filesystem::path path_;
   H5md::Content content_;

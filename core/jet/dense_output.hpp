@@ -8,6 +8,9 @@
 /// solution holds for begin <= t <= until. Source: Hermite interpolation; e.g. Hairer, Norsett, Wanner,
 /// "Solving ODEs I", II.6.
 
+#include <utility>
+
+#include "core/base/row_sharing.hpp"
 #include "core/base/weighted_sum.hpp"
 #include "core/jet/jet.hpp"
 
@@ -16,54 +19,33 @@ namespace treejet {
 template <int D>
 class DenseOutput {
  public:
-  DenseOutput(const SolutionPoint<D>& begin, const SolutionPoint<D>& end)
-      : begin_(begin), end_(end), until(end.t) {}
+  /// The two ends outlive it.
+  DenseOutput(const SolutionPoint<D>& begin, const SolutionPoint<D>& end,
+              RowSharing rows_shared = all_at_once)
+      : begin_(begin), end_(end), rows_shared_(std::move(rows_shared)), until(end.t) {}
 
   double begin() const { return begin_.t; }
   const State<D>& first() const { return begin_.y; }
   const SolutionPoint<D>& from() const { return begin_; }
   const SolutionPoint<D>& to() const { return end_; }
 
+  /// The state of all beads at t.
   State<D> at(double t) const {
     State<D> y(begin_.y.rows(), begin_.y.cols());
-    at(t, 0, y);
+    for_each_stretch(rows_shared_, y.rows(),
+                     [&](Eigen::Index first, Eigen::Index count) { set_all(t, first, count, y, first); });
     return y;
   }
 
   /// Beads first, first + 1, ... of the state at t, as many as `y` has rows.
-  void at(double t, Eigen::Index first, State<D>& y) const {
-    positions_at(t, first, y, 0, y.rows());
-    const double h = end_.t - begin_.t, s = (t - begin_.t) / h, s2 = s * s;
-    const double v = 30 * s2 * (1 - 2 * s + s2) / h;
-    const std::array<double, 6> of_velocity = {-v,
-                                               v,
-                                               1 - s2 * (18 - 32 * s + 15 * s2),
-                                               -s2 * (12 - 28 * s + 15 * s2),
-                                               h * (s - s2 * (4.5 - 6 * s + 2.5 * s2)),
-                                               h * s2 * (1.5 - 4 * s + 2.5 * s2)};
-    for (int k = 0; k < D; ++k)
-      weighted_sum(nullptr, of_velocity, ends(k, first), y.rows(), y.col(velocity_column<D> + k).data());
-    const double c = s2 * (3 - 2 * s);
-    for (Eigen::Index column = stress_column<D>; column < y.cols(); ++column) {
-      const auto rows = [&](const State<D>& table) { return table.col(column).segment(first, y.rows()); };
-      y.col(column) = (1 - c) * rows(begin_.y) + c * rows(end_.y) +
-                      h * s * (1 - 2 * s + s2) * rows(begin_.slope) - h * s2 * (1 - s) * rows(end_.slope);
-    }
-  }
+  void at(double t, Eigen::Index first, State<D>& y) const { set_all(t, first, y.rows(), y, 0); }
 
-  /// Positions alone of beads first, first + 1, ... into so many rows of `y`; its other columns stay as they
-  /// are.
-  void positions_at(double t, Eigen::Index first, State<D>& y, Eigen::Index row, Eigen::Index rows) const {
-    const double h = end_.t - begin_.t, s = (t - begin_.t) / h, s2 = s * s, s3 = s2 * s;
-    const double x = s3 * (10 - 15 * s + 6 * s2);
-    const std::array<double, 6> of_position = {1 - x,
-                                               x,
-                                               h * (s - s3 * (6 - 8 * s + 3 * s2)),
-                                               -h * s3 * (4 - 7 * s + 3 * s2),
-                                               h * h / 2 * (s2 - s3 * (3 - 3 * s + s2)),
-                                               h * h / 2 * s3 * (1 - 2 * s + s2)};
-    for (int k = 0; k < D; ++k)
-      weighted_sum(nullptr, of_position, ends(k, first), rows, y.col(k).data() + row);
+  /// Positions alone of all beads; what else is in `y` means nothing then.
+  void positions_at(double t, State<D>& y) const {
+    y.resize(begin_.y.rows(), begin_.y.cols());
+    for_each_stretch(rows_shared_, y.rows(), [&](Eigen::Index first, Eigen::Index count) {
+      set_positions(t, first, count, y, first);
+    });
   }
 
   /// Third derivative of the position of bead i at the end: what the next step may expect of its
@@ -77,6 +59,41 @@ class DenseOutput {
   }
 
  private:
+  /// The state of `count` beads from `first` on, into as many rows of `y` from `row` on.
+  void set_all(double t, Eigen::Index first, Eigen::Index count, State<D>& y, Eigen::Index row) const {
+    set_positions(t, first, count, y, row);
+    const double h = end_.t - begin_.t, s = (t - begin_.t) / h, s2 = s * s;
+    const double v = 30 * s2 * (1 - 2 * s + s2) / h;
+    const std::array<double, 6> of_velocity = {-v,
+                                               v,
+                                               1 - s2 * (18 - 32 * s + 15 * s2),
+                                               -s2 * (12 - 28 * s + 15 * s2),
+                                               h * (s - s2 * (4.5 - 6 * s + 2.5 * s2)),
+                                               h * s2 * (1.5 - 4 * s + 2.5 * s2)};
+    for (int k = 0; k < D; ++k)
+      weighted_sum(nullptr, of_velocity, ends(k, first), count, y.col(velocity_column<D> + k).data() + row);
+    const double c = s2 * (3 - 2 * s);
+    for (Eigen::Index column = stress_column<D>; column < y.cols(); ++column) {
+      const auto rows = [&](const State<D>& table) { return table.col(column).segment(first, count); };
+      y.col(column).segment(row, count) = (1 - c) * rows(begin_.y) + c * rows(end_.y) +
+                                          h * s * (1 - 2 * s + s2) * rows(begin_.slope) -
+                                          h * s2 * (1 - s) * rows(end_.slope);
+    }
+  }
+
+  void set_positions(double t, Eigen::Index first, Eigen::Index count, State<D>& y, Eigen::Index row) const {
+    const double h = end_.t - begin_.t, s = (t - begin_.t) / h, s2 = s * s, s3 = s2 * s;
+    const double x = s3 * (10 - 15 * s + 6 * s2);
+    const std::array<double, 6> of_position = {1 - x,
+                                               x,
+                                               h * (s - s3 * (6 - 8 * s + 3 * s2)),
+                                               -h * s3 * (4 - 7 * s + 3 * s2),
+                                               h * h / 2 * (s2 - s3 * (3 - 3 * s + s2)),
+                                               h * h / 2 * s3 * (1 - 2 * s + s2)};
+    for (int k = 0; k < D; ++k)
+      weighted_sum(nullptr, of_position, ends(k, first), count, y.col(k).data() + row);
+  }
+
   /// What the quintic of a component is made of: position, velocity and acceleration at the two ends.
   std::array<const double*, 6> ends(int component, Eigen::Index first) const {
     const auto from = [&](const State<D>& table, int column) { return table.col(column).data() + first; };
@@ -87,6 +104,7 @@ class DenseOutput {
 
   const SolutionPoint<D>& begin_;
   const SolutionPoint<D>& end_;
+  RowSharing rows_shared_;
 
  public:
   double until;  ///< end of validity: an event may have ended the step early

@@ -24,9 +24,8 @@ namespace {
 template <int D>
 std::unique_ptr<Recorder<D>> recorder(const Parameters& p, const Nozzle<D>& nozzle,
                                       const Collector& collector, const OutputSetting& setting) {
-  auto rows = Recorder<D>::setting(p, nozzle, collector, setting.force_error, setting.added);
-  rows.rows_shared = setting.rows_shared;
-  return std::make_unique<Recorder<D>>(rows);
+  return std::make_unique<Recorder<D>>(
+      Recorder<D>::setting(p, nozzle, collector, setting.force_error, setting.added));
 }
 
 /// The rows of traj.h5: the time, and what else `print list` asks for.

@@ -42,7 +42,6 @@ struct OutputSetting {
   const FieldErrorReport* force_error = nullptr;  ///< null: exact forces
   Columns added = {};                             ///< of the scene, for frames
   const CheckpointParts* resumed = nullptr;       ///< what to go on from, null for a new run
-  RowSharing rows_shared = all_at_once;           ///< who looks at long tables
   RowSharing chunks_shared = all_at_once;         ///< who compresses traj.h5
   std::vector<std::string> changes = {};          ///< directives of a deck that has changed since then
 };

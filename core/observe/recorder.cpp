@@ -31,7 +31,6 @@ Recorder<D>::Recorder(const Setting& setting)
       setting_(setting),
       statistics_(setting.nozzle, setting.collector, setting.material) {
   this->sample_early_end();
-  statistics_.rows_shared = setting.rows_shared;
 }
 
 template <int D>

@@ -34,7 +34,6 @@ class Recorder final : public Sampling<D> {
     double interval, end;                           ///< scaled
     const FieldErrorReport* force_error = nullptr;  ///< null: exact forces
     Material material = {};
-    RowSharing rows_shared = all_at_once;
   };
 
   /// What a deck asks for, of a scene with these columns in its state.

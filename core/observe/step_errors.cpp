@@ -64,18 +64,20 @@ bool StepErrors<D>::goes_on(const SolutionPoint<D>& from, double h) const {
 /// Of the change of position, velocity or stress over two steps, the part that the rates do not account for.
 template <int D>
 double StepErrors<D>::error_of_two_steps(const SolutionPoint<D>& to, double h) const {
-  const State<D> change = to.y - begin_.y;
-  const State<D> by_rates = h / 3 * (begin_.slope + 4 * middle_slope_ + to.slope);
-  const auto [first, last] = all_.own_rows(change.rows());
+  const auto [first, last] = all_.own_rows(to.y.rows());
   constexpr std::array<std::array<Eigen::Index, 2>, 3> columns = {
       {{0, D}, {velocity_column<D>, D}, {stress_column<D>, 1}}};
   Eigen::ArrayXd sums(6);  // squares of what is unaccounted for, and of what is not
   for (Eigen::Index k = 0; k < 3; ++k) {
     const auto [column, count] = columns[static_cast<std::size_t>(k)];
-    const Eigen::ArrayXXd rates = by_rates.block(first, column, last - first, count);
-    const Eigen::ArrayXXd all = change.block(first, column, last - first, count);
-    sums[k] = (all - rates).square().sum();
-    sums[3 + k] = rates.square().sum();
+    const auto own = [&, column = column, count = count, first = first, last = last](const State<D>& table) {
+      return table.block(first, column, last - first, count);
+    };
+    // not evaluated before they are summed up: of a long jet that is two tables less
+    const auto change = own(to.y) - own(begin_.y);
+    const auto by_rates = h / 3 * (own(begin_.slope) + 4 * own(middle_slope_) + own(to.slope));
+    sums[k] = (change - by_rates).square().sum();
+    sums[3 + k] = by_rates.square().sum();
   }
   all_.add_up(sums);
   double most = 0;

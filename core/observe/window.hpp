@@ -7,7 +7,6 @@
 
 #include <numbers>
 
-#include "core/base/row_sharing.hpp"
 #include "core/jet/collector.hpp"
 #include "core/jet/decomposition.hpp"
 #include "core/jet/dense_output.hpp"
@@ -34,8 +33,6 @@ class Statistics {
   Statistics(const Nozzle<D>& nozzle, const Collector& collector, const Material& material = {})
       : nozzle_(nozzle), collector_(collector), material_(material) {}
 
-  RowSharing rows_shared = all_at_once;
-
   /// Integrates the path length too, which costs a pass over the beads each step.
   void follow_path() { follows_path_ = true; }
   bool follows_path() const { return follows_path_; }
@@ -55,11 +52,8 @@ class Statistics {
     window_.release_speed += dt * last_release_speed_;
     if (!follows_path_) return;
     const double middle = from + dt / 2, off_middle = dt / 2 / std::numbers::sqrt3;
-    then_.resize(segment.first().rows(), segment.first().cols());
     for (const double at : {middle - off_middle, middle + off_middle}) {
-      for_each_stretch(rows_shared, then_.rows(), [&](Eigen::Index row, Eigen::Index rows) {
-        segment.positions_at(at, row, then_, row, rows);
-      });
+      segment.positions_at(at, then_);
       window_.path_length += dt / 2 * all.path_length(then_, nozzle_.position(at));
     }
   }

@@ -102,6 +102,11 @@ void March<D>::step(double h) {
   ++effort_.steps;
 }
 
+template <int D>
+DenseOutput<D> March<D>::segment() const {
+  return {jet_, next_, parts_.stepper.rows_shared};
+}
+
 /// The error of the last step in the norm of the control; 0 if the scheme does not estimate it.
 template <int D>
 double March<D>::error() const {
@@ -238,13 +243,13 @@ void March<D>::take_over(Archive& state, const std::function<void()>& read_beads
 template <int D>
 std::optional<typename March<D>::Due> March<D>::located_event(double reach) {
   const double h = next_.t - jet_.t;
-  auto due = first_event(DenseOutput<D>(jet_, next_), reach);
+  auto due = first_event(segment(), reach);
   // one that is due at the very beginning ends the step there
   if (due && aims() && due->t > jet_.t && due->t < next_.t - dense_fraction * h) {
     ++effort_.retaken;
     step(due->t - jet_.t);
     evaluate(next_, parts_.stepper.slope_at_end());
-    due = first_event(DenseOutput<D>(jet_, next_), next_.t + dense_fraction * h);
+    due = first_event(segment(), next_.t + dense_fraction * h);
   }
   return due;
 }
@@ -258,7 +263,7 @@ bool March<D>::hold_ended() {
 /// Shows the watchers the solution up to the event, or the whole step, and goes there.
 template <int D>
 void March<D>::commit(std::optional<Due> due) {
-  DenseOutput<D> segment(jet_, next_);
+  DenseOutput<D> segment = this->segment();
   if (due) segment.until = due->t;
   for (auto* w : parts_.observers) w->segment(jet_, segment);
   if (aims()) forecast_.segment(jet_, segment);

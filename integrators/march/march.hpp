@@ -89,6 +89,7 @@ class March {
   bool nears(double end) const;
   void evaluate(SolutionPoint<D>& point, const State<D>* known = nullptr);
   void step(double h);
+  DenseOutput<D> segment() const;
   double error() const;
   [[noreturn]] void give_up() const;
   double attempt(double end);

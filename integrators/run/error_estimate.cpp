@@ -112,9 +112,8 @@ std::optional<TableOfRows> rows_of_run(const Parameters& p, Scene<D>& scene, con
     TableOfRows& table;
   };
   TableOfRows table{labels(p.printstat_list, own), {}};
-  auto setting = Recorder<D>::setting(p, scene.nozzle, scene.collector, scene.force_error(), scene.columns);
-  setting.rows_shared = rows_shared(scene.threads);
-  Recorder<D> recorder(setting);
+  Recorder<D> recorder(
+      Recorder<D>::setting(p, scene.nozzle, scene.collector, scene.force_error(), scene.columns));
   recorder.sample_all(scene.decomposition());
   recorder.add(p.printstat_list, std::make_unique<Keep>(table), own);
   Integration<D> integration(p, system(scene), {&recorder}, std::move(stop_here));

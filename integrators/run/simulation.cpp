@@ -13,7 +13,6 @@ namespace {
 template <int D>
 OutputSetting output_setting(OutputSetting outputs, const System<D>& system, const Checkpoint* resumed) {
   outputs.added = system.columns;
-  outputs.rows_shared = rows_shared(system.threads);
   outputs.chunks_shared = tasks_shared(system.threads);
   if (resumed) {
     outputs.existing = OutputFile::Existing::resume;

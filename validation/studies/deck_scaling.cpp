@@ -2,7 +2,9 @@
 ///
 /// All teams run by turns, the same number of steps from the same beginning, and a speedup is the median over
 /// the turns of the ratio of two times of one turn: a processor that is now fast, now slow is so for both.
-/// More workers than cores show that the answer is right, and nothing of speed.
+/// More workers than cores show that the answer is right, and nothing of speed. Where teams are asked for by
+/// their workers, as many copies of the serial program run by turns with them, too: what these lose to each
+/// other (clock, caches, memory) no team can gain.
 
 #include "validation/support/deck_scaling.hpp"
 
@@ -11,6 +13,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <future>
 #include <map>
 
 #include "core/base/error.hpp"
@@ -63,6 +66,28 @@ struct Turns {
   }
 };
 
+/// Of serial programs at the same time, each on a core of its own; their evaluations count together.
+DeckMeasurement of_copies(int count, const DeckScaling& asked, std::int64_t steps, const fs::path& files) {
+  std::vector<std::future<std::string>> copies;
+  for (const int core : cores_apart()) {
+    if (std::ssize(copies) == count) break;
+    const std::string line = arguments(asked, {{1, 1}}, steps, files / std::to_string(core));
+    copies.push_back(std::async(std::launch::async, output_on_core, core, line));
+  }
+  std::vector<DeckMeasurement> all;
+  for (auto& copy : copies) all.push_back(deck_measurement(copy.get()));
+  DeckMeasurement m = all.front();
+  for (std::size_t k = 1; k < all.size(); ++k) {
+    m.seconds += all[k].seconds;
+    for (std::size_t w = 0; w < m.work.size(); ++w) m.work[w] += all[k].work[w];
+    m.cores += "," + all[k].cores;
+  }
+  const double each = double(count) * count;  // the mean, of as many evaluations as there are programs
+  m.seconds /= each;
+  for (double& seconds : m.work) seconds /= each;
+  return m;
+}
+
 std::vector<Turns> measured(const DeckScaling& asked, const std::vector<Workers>& teams, int cores,
                             Report& report) {
   std::vector<Turns> all;
@@ -74,8 +99,9 @@ std::vector<Turns> measured(const DeckScaling& asked, const std::vector<Workers>
       report.progress("scaling", done++, asked.turns * static_cast<int>(all.size()));
       if (turn > 0 && !t.timed) continue;
       const fs::path files = report.directory() / "deck-run";
-      t.turns.push_back(
-          deck_measurement(output(t.team.layout, cores, arguments(asked, t.team, steps, files))));
+      t.turns.push_back(t.team.copies ? of_copies(t.team.layout.workers(), asked, steps, files)
+                                      : deck_measurement(output(t.team.layout, cores,
+                                                                arguments(asked, t.team, steps, files))));
       fs::remove_all(files);
       steps = all.front().turns.front().steps;  // as many for all
     }
@@ -222,7 +248,8 @@ void study_scaling_of(const DeckScaling& asked, Report& report) {
   report.section({"Speedup and efficiency of a deck",
                   fmt::format("{} on teams of workers: each on a core of its own; more workers than cores "
                               "show correctness only. Ranks hold the whole jet each (replicated) or a "
-                              "subdomain of it (distributed).",
+                              "subdomain of it (distributed). Copies are serial programs at the same time: "
+                              "what they lose to each other no team can gain.",
                               asked.deck),
                   fmt::format("treejet-validate scaling --deck {} --out DIR", for_shell(asked.deck))});
   const int cores = physical_cores();

@@ -22,6 +22,9 @@ class Teams {
     if (replicated_ || layout.ranks == 1) put({layout, false});
     if (distributed_ && layout.ranks > 1) put({layout, true});
   }
+  void add_copies(int count) {
+    if (count > 1) put({{count, 1}, false, true});
+  }
 
   std::vector<Workers> all = {Workers{{1, 1}}};
 
@@ -29,7 +32,7 @@ class Teams {
   void put(const Workers& team) {
     const bool there = std::any_of(all.begin(), all.end(), [&](const Workers& t) {
       return t.layout.ranks == team.layout.ranks && t.layout.threads == team.layout.threads &&
-             t.subdomains == team.subdomains;
+             t.subdomains == team.subdomains && t.copies == team.copies;
     });
     if (!there) all.push_back(team);
   }
@@ -56,6 +59,7 @@ void require_valid(const DeckScaling& asked) {
 
 std::string Workers::name() const {
   if (layout.serial()) return "serial";
+  if (copies) return "copies";
   if (subdomains) return "distributed";
   return layout.threads == 1 ? "ranks" : layout.ranks == 1 ? "threads" : "mixed";
 }
@@ -69,6 +73,7 @@ std::vector<Workers> teams(const DeckScaling& asked, int cores, bool distributab
   for (int p : workers) {
     teams.add({1, p});
     if (!mpi_launcher().empty()) teams.add({p, 1});
+    if (p <= cores) teams.add_copies(p);
   }
   if (products)
     for (int r : asked.ranks.empty() ? std::vector<int>{1} : asked.ranks)

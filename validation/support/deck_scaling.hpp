@@ -26,18 +26,20 @@ void require_valid(const DeckScaling& asked);
 /// Why the deck is not run with subdomains, the reader's words; empty if it is.
 std::string undistributable(const DeckScaling& asked);
 
-/// A team, and whether its ranks hold a subdomain of the chain each or all of it.
+/// A team, and whether its ranks hold a subdomain of the chain each or all of it. Copies are no team but as
+/// many serial programs at the same time, which share the machine and nothing else: no team need be asked for
+/// a better efficiency than theirs.
 struct Workers {
   RankLayout layout;
-  bool subdomains = false;
+  bool subdomains = false, copies = false;
 
-  /// "serial", "threads", "ranks", "mixed", "distributed".
+  /// "serial", "threads", "ranks", "mixed", "distributed", "copies".
   std::string name() const;
 };
 
-/// The serial program first, each team once. Of `workers` each number by threads and by ranks; of `ranks` and
-/// `threads` all products; of none of them the powers of 2 up to the cores. InputError for ranks where there
-/// is no MPI. `distributable`: subdomains are possible.
+/// The serial program first, each team once. Of `workers` each number by threads, by ranks and, where there
+/// are so many cores, by copies; of `ranks` and `threads` all products; of none of them the powers of 2 up to
+/// the cores. InputError for ranks where there is no MPI. `distributable`: subdomains are possible.
 std::vector<Workers> teams(const DeckScaling& asked, int cores, bool distributable);
 
 }  // namespace treejet

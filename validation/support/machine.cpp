@@ -50,17 +50,22 @@ double ProcessorUse::by_others() const {
   return u.all > all_ ? std::max(0.0, (u.busy - busy_ - (u.own - own_)) / (u.all - all_)) : 0;
 }
 
-int physical_cores() {
+std::vector<int> cores_apart() {
   const CoreSet mine = cores_of_this_process();
-  std::set<std::string> cores;
+  std::set<std::string> seen;
+  std::vector<int> cores;
   for (std::size_t id = 0; id < mine.size(); ++id) {
     if (!mine[id]) continue;
     std::ifstream file(fmt::format("/sys/devices/system/cpu/cpu{}/topology/thread_siblings_list", id));
     std::string siblings;
     if (!(file >> siblings)) siblings = fmt::format("{}", id);
-    cores.insert(siblings);
+    if (seen.insert(siblings).second) cores.push_back(static_cast<int>(id));
   }
-  return std::max(1, static_cast<int>(cores.size()));
+  return cores;
+}
+
+int physical_cores() {
+  return std::max(1, static_cast<int>(cores_apart().size()));
 }
 
 std::string processor_name() {

@@ -2,12 +2,16 @@
 /// What a study of speed needs to know of the machine it runs on.
 
 #include <string>
+#include <vector>
 
 #include "parallel/ranks.hpp"
 
 namespace treejet {
 
-/// Of those this process may run on; the threads of a core count as one.
+/// The cores this process may run on, of each the number of its first thread.
+std::vector<int> cores_apart();
+
+/// How many they are; at least one, should nothing tell.
 int physical_cores();
 
 /// "Intel(R) Xeon(R) Processor", or "unknown".

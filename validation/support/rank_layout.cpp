@@ -38,9 +38,13 @@ std::string launch_line(const RankLayout& layout, bool pinned, const std::string
   return line + fmt::format("{} {}", for_shell(program), arguments);
 }
 
-std::string output(const RankLayout& layout, int cores, const std::string& arguments) {
-  const std::string line = launch_line(layout, layout.workers() <= cores,
-                                       std::filesystem::read_symlink("/proc/self/exe").string(), arguments);
+namespace {
+
+std::string this_program() {
+  return std::filesystem::read_symlink("/proc/self/exe").string();
+}
+
+std::string output_of(const std::string& line) {
   std::FILE* pipe = popen(line.c_str(), "r");
   if (!pipe) throw FileError("cannot start " + line);
   std::string all;
@@ -48,6 +52,17 @@ std::string output(const RankLayout& layout, int cores, const std::string& argum
   const auto at = all.find("measured ");
   if (pclose(pipe) != 0 || at == std::string::npos) throw FileError("failed: " + line);
   return all.substr(at);
+}
+
+}  // namespace
+
+std::string output(const RankLayout& layout, int cores, const std::string& arguments) {
+  return output_of(launch_line(layout, layout.workers() <= cores, this_program(), arguments));
+}
+
+std::string output_on_core(int core, const std::string& arguments) {
+  return output_of(fmt::format("OMP_NUM_THREADS=1 OMP_PROC_BIND=close OMP_PLACES='{{{}}}' {} {}", core,
+                               for_shell(this_program()), arguments));
 }
 
 }  // namespace treejet

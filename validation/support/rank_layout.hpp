@@ -22,4 +22,7 @@ std::string launch_line(const RankLayout& layout, bool pinned, const std::string
 /// where there are so many cores; FileError if it fails.
 std::string output(const RankLayout& layout, int cores, const std::string& arguments);
 
+/// The same of one serial program that is pinned to a core.
+std::string output_on_core(int core, const std::string& arguments);
+
 }  // namespace treejet

@@ -1,7 +1,6 @@
 #include "forces/coulomb/tree/ordered_points.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <Eigen/Core>
 
 #include "core/base/error.hpp"
 
@@ -19,8 +18,7 @@ void OrderedPoints::read(const PointCharges<3>& points, Threads threads) {
       q_[place] = points.q[i];
     }
   });
-  charge_unit_ = 0;
-  for (double q : q_) charge_unit_ = std::max(charge_unit_, std::abs(q));
+  charge_unit_ = n > 0 ? Eigen::Map<const Eigen::ArrayXd>(q_.data(), points.n).abs().maxCoeff() : 0;
   if (!(charge_unit_ > 0)) charge_unit_ = 1;
 }
 

@@ -53,9 +53,12 @@ void move_down(const WideKernels& kernels, const Cells& cells, const Expansions&
 
 void mark_above(const Cells& cells, std::span<const int> leaves, std::vector<char>& wanted) {
   wanted.assign(static_cast<std::size_t>(cells.size()), 0);
-  for (int l = 0; l < cells.levels(); ++l)
-    for (int leaf : leaves)
-      wanted[static_cast<std::size_t>(cells.level(l).first + (leaf >> (cells.levels() - 1 - l)))] = 1;
+  for (int leaf : leaves) wanted[index(cells.level(cells.levels() - 1).first + leaf)] = 1;
+  for (int l = cells.levels() - 2; l >= 0; --l) {
+    const CellRange parents = cells.level(l), children = cells.level(l + 1);
+    for (int child = children.first; child < children.last; ++child)
+      wanted[index(parents.first + (child - children.first) / 2)] |= wanted[index(child)];
+  }
 }
 
 }  // namespace treejet

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 #include <random>
 
 #include "core/base/error.hpp"
@@ -212,6 +213,42 @@ TEST_CASE("A frame that comes in parts is the frame, wherever the file is cut of
       check_same(read.frames(static_cast<std::uint64_t>(k), 1).front(), frame);
       if (frame.points() > 7) CHECK(read.part(static_cast<std::uint64_t>(k), 5, 2).id[1] == frame.id[6]);
     }
+    if (expected.empty()) expected = read_whole(path);
+    CHECK(read_whole(path) == expected);
+  }
+}
+
+TEST_CASE(
+    "A file that is made anew for a long first frame keeps the rows before it, and is whole at any time") {
+  const ScratchDirectory place;
+  Frame long_one = frame_of(1);
+  const std::size_t points = points_at_once + 1'000;
+  long_one.id.resize(points);
+  std::iota(long_one.id.begin(), long_one.id.end(), 1);
+  for (auto& values : long_one.columns) {
+    const std::size_t width = &values - &long_one.columns[0] < 2 ? 3 : 1;  // position and velocity
+    values.resize(points * width, 0.5);
+  }
+  std::string expected;
+  for (const bool in_parts : {false, true}) {
+    CAPTURE(in_parts);
+    const fs::path path = place.path / (in_parts ? "parts" : "whole") / "traj.h5";
+    H5mdTrajectory file(path, content, Existing::keep);
+    file.append(row_of(0));
+    file.flush();
+    file.append(row_of(1));
+    if (in_parts)
+      file.append(long_one.time, points, [&](const auto& take) { take(long_one); });
+    else
+      file.append(long_one);
+    file.flush();
+    const H5md read(path, Hdf5File::Access::read);
+    REQUIRE(read.rows() == 2);
+    CHECK(read.rows(1, 1).front().values == row_of(1).values);
+    REQUIRE(read.frames() == 1);
+    check_same(read.frames(0, 1).front(), long_one);
+    file.append(frame_of(2));
+    file.finish();
     if (expected.empty()) expected = read_whole(path);
     CHECK(read_whole(path) == expected);
   }

@@ -116,7 +116,7 @@ TEST_CASE("Two runs of the same deck have the same bits") {
   }
 }
 
-TEST_CASE("The path length within a step has the same bits on 1, 2, 3 and 4 threads") {
+TEST_CASE("The state and the path length within a step have the same bits on 1, 2, 3 and 4 threads") {
   const Eigen::Index rows = rows_worth_sharing + 12'345;
   const double h = 0.01;
   // free flight with an acceleration of its own for each bead
@@ -132,12 +132,14 @@ TEST_CASE("The path length within a step has the same bits on 1, 2, 3 and 4 thre
   const double before = path_length<3>(from.y, {0, 0, 0}), after = path_length<3>(to.y, {0, 0, 0});
   const Run<3> run(example("pvp"));
   double one = 0;
+  const double third = from.t + h / 3;
   for (int threads : {1, 2, 3, 4}) {
+    const DenseOutput<3> segment(from, to, rows_shared({threads}));
+    CHECK(same_bits<3>(segment.at(third), DenseOutput<3>(from, to).at(third)));
     Statistics<3> statistics(run.scene.nozzle, run.scene.collector);
     statistics.follow_path();
-    statistics.rows_shared = rows_shared({threads});
     statistics.begin_window(from.t);
-    statistics.integrate({from, to}, to.t);
+    statistics.integrate(segment, to.t);
     const double length = statistics.window().path_length;
     if (threads == 1) one = length;
     CHECK(length == one);

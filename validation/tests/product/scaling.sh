@@ -56,6 +56,11 @@ ends 4 "before there was one to measure" scaling --deck deck.dat --set "insertin
 ends 0 "without parallel distributed" scaling --deck "$source/examples/straight-jet/input.dat" --threads 1 --steps 3 --turns 1
 ends 2 "system 1" scaling --deck "$source/examples/straight-jet/input.dat" --data distributed --threads 1 --steps 3
 
+# serial programs side by side, each on a core of its own, where there are two
+"$validate" scaling --deck deck.dat --workers 1,2 --data replicated --steps 5 --turns 1 --out copies >out 2>&1 || fail "$(cat out)"
+is "rows of copies" "$(grep -c '"copies"' copies/scaling_deck.csv)" "$(awk '/physical cores/ { print ($0 !~ / 1 physical/) }' out)"
+grep '"copies"' copies/scaling_deck.csv | grep -q '"\([0-9][0-9]*\),\1"' && fail "copies on one core"
+
 # begun with the state of another run, by all teams
 "${validate%-validate}" run deck.dat --quiet --set "coulomb direct" --out begun --threads 1 || fail "a run to begin with"
 # shellcheck disable=SC2086
