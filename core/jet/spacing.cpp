@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/multiples.hpp"
 #include "core/jet/scales.hpp"
 
 namespace treejet {
@@ -63,15 +64,15 @@ Spacing<D>::Spacing(const Parameters& p, const Columns& added) {
 template <int D>
 double Spacing<D>::next(double t) const {
   if (every_ == 0) return never;
-  const double first = std::ceil(start_ / every_ - round_off);
-  return every_ * std::max(std::floor(t / every_ + round_off) + 1, first);
+  const double k = start_ / every_, first = std::ceil(k - multiple_round_off(k));
+  return every_ * std::max(last_multiple(t, every_) + 1, first);
 }
 
 template <int D>
 bool Spacing<D>::due(double t, bool has_released) const {
   if (t < start_ * (1 - round_off)) return false;
   if (every_ == 0) return has_released;
-  return std::abs(t / every_ - std::round(t / every_)) <= round_off;
+  return is_multiple(t, every_);
 }
 
 /// Its halves are to be slender.

@@ -2,8 +2,9 @@
 /// Calls a function where a run begins and at the asked times k * interval after that, exactly there, by
 /// dense output. All times scaled.
 
-#include <cmath>
+#include <algorithm>
 
+#include "core/base/multiples.hpp"
 #include "core/jet/decomposition.hpp"
 #include "core/jet/observer.hpp"
 
@@ -21,7 +22,7 @@ class Sampling : public Observer<D> {
   void sample_early_end() { samples_early_end_ = true; }
 
   void start(const Jet<D>& jet) override {
-    count_ = static_cast<std::int64_t>((jet.t + slack()) / interval_);
+    count_ = static_cast<std::int64_t>(last_multiple(jet.t, interval_));
     take(jet, jet.t, jet.y);
   }
 
@@ -53,7 +54,7 @@ class Sampling : public Observer<D> {
 
  private:
   /// The asked times and the grid of the steps round differently.
-  double slack() const { return 1e-9 * interval_; }
+  double slack() const { return interval_ * multiple_round_off(double(count_)); }
 
   void take(const Jet<D>& jet, double t, const State<D>& y) {
     sample(at(jet, t, y));

@@ -16,6 +16,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/base/multiples.hpp"
 #include "core/jet/jet.hpp"
 #include "core/jet/observer.hpp"
 
@@ -40,8 +41,8 @@ class FixedStep final : public StepControl {
   explicit FixedStep(double dt) : dt_(dt) {}
 
   double proposal(double t, double end) const override {
-    constexpr double round_off = 1e-9;  // of a step: a remainder shorter than this joins the next step
-    return std::min(dt_ * (std::floor(t / dt_ + round_off) + 1), end) - t;
+    // a remainder that round-off may have left joins the next step
+    return std::min(dt_ * (last_multiple(t, dt_) + 1), end) - t;
   }
   bool accepts(double, double, double) override { return true; }
   bool steps_to_events() const override { return false; }

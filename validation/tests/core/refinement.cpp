@@ -250,6 +250,11 @@ TEST_CASE("Looks that a deck asks for begin at its start, on their own grid") {
   const Spacing<3> spacing(p);
   CHECK(spacing.next(0) == Approx(0.3).epsilon(1e-14));
   CHECK(spacing.next(0.3) == Approx(0.4).epsilon(1e-14));
+  for (std::int64_t k = 4; k < 1'000'000'000; k += 1 + k / 7) {
+    const double t = double(k) * 0.1;
+    CHECK(spacing.next(t) == Approx(t + 0.1).epsilon(1e-14));
+    CHECK(spacing.due(t, false));
+  }
   CHECK_FALSE(spacing.due(0.2, true));
   CHECK(spacing.due(0.3, false));
   CHECK_FALSE(spacing.due(0.35, true));

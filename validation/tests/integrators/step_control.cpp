@@ -80,6 +80,16 @@ TEST_CASE("A fixed step that would end a sliver before its grid goes on to the n
   CHECK(control.proposal(0.25, 0.27) == Approx(0.02).epsilon(1e-9));
 }
 
+TEST_CASE("A fixed step is as long after hundreds of millions of others as the first one") {
+  for (const double dt : {1e-6, 3e-7, 0.1, 1.0 / 3, 7.7e-9})
+    for (std::int64_t k = 100; k < 1'000'000'000; k += k / 7) {
+      const FixedStep control(dt);
+      const double t = double(k) * dt, never = std::numeric_limits<double>::infinity();
+      // the ends of the step are rounded, each by half an epsilon of the time at the most
+      CHECK(std::abs(control.proposal(t, never) / dt - 1) < 2e-16 * double(k) + 1e-9);
+    }
+}
+
 TEST_CASE(
     "An adaptive step is cut by an event in its last hundredth only: one well inside gets a step of its "
     "own") {
