@@ -144,6 +144,7 @@ void H5mdTrajectory::bring_twin_up_to_date() {
     last_is_behind_ = false;
     twin_ = true;
   }
+  twin_ = false;  // until it is whole again: what a failure leaves half written is not gone on with
   H5md file(twin(), Hdf5File::Access::append);
   if (std::exchange(last_is_behind_, false)) {
     const H5md whole(path_, Hdf5File::Access::read);

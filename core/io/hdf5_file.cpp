@@ -73,10 +73,12 @@ void Hdf5File::close() {
 }
 
 void Hdf5File::group(const std::string& name) {
-  const Handle group(Checker(path_, name)(H5Gcreate2(file_, name.c_str(), makes_groups(),
-                                                     without_times(H5P_GROUP_CREATE), H5P_DEFAULT),
-                                          "cannot be made"),
-                     H5Gclose);
+  const Checker check(path_, name);
+  Handle made(
+      check(H5Gcreate2(file_, name.c_str(), makes_groups(), without_times(H5P_GROUP_CREATE), H5P_DEFAULT),
+            "cannot be made"),
+      H5Gclose);
+  check(made.close(), "cannot be made");
 }
 
 void Hdf5File::dataset(const std::string& name, const Layout& layout) {
@@ -92,21 +94,23 @@ void Hdf5File::dataset(const std::string& name, const Layout& layout) {
     check(H5Pset_shuffle(content), "shuffle filter");
     check(H5Pset_deflate(content, deflate_level), "deflate filter");
   }
-  const Handle set(check(H5Dcreate2(file_, name.c_str(), on_disk(layout.number), space, makes_groups(),
-                                    content, H5P_DEFAULT),
-                         "cannot be made"),
-                   H5Dclose);
+  Handle made(check(H5Dcreate2(file_, name.c_str(), on_disk(layout.number), space, makes_groups(), content,
+                               H5P_DEFAULT),
+                    "cannot be made"),
+              H5Dclose);
+  check(made.close(), "cannot be made");
 }
 
 void Hdf5File::text(const std::string& name, const std::string& value) {
   const Checker check(path_, name);
   const Handle type = text_type(std::max<std::size_t>(value.size(), 1)),
                space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle set(check(H5Dcreate2(file_, name.c_str(), type, space, makes_groups(),
-                                    without_times(H5P_DATASET_CREATE), H5P_DEFAULT),
-                         "cannot be made"),
-                   H5Dclose);
-  check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.c_str()), "cannot be written");
+  Handle made(check(H5Dcreate2(file_, name.c_str(), type, space, makes_groups(),
+                               without_times(H5P_DATASET_CREATE), H5P_DEFAULT),
+                    "cannot be made"),
+              H5Dclose);
+  check(H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.c_str()), "cannot be written");
+  check(made.close(), "cannot be written");
 }
 
 void Hdf5File::link(const std::string& existing, const std::string& name) {
@@ -119,11 +123,12 @@ void Hdf5File::attribute(const std::string& object, const std::string& name, con
   const Checker check(path_, object);
   const Handle type = text_type(std::max<std::size_t>(value.size(), 1)),
                space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle a(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
-                                         H5P_DEFAULT, H5P_DEFAULT),
-                       "attribute"),
-                 H5Aclose);
-  check(H5Awrite(a, type, value.c_str()), "attribute");
+  Handle made(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+                                      H5P_DEFAULT, H5P_DEFAULT),
+                    "attribute"),
+              H5Aclose);
+  check(H5Awrite(made, type, value.c_str()), "attribute");
+  check(made.close(), "attribute");
 }
 
 void Hdf5File::attribute(const std::string& object, const std::string& name,
@@ -135,11 +140,12 @@ void Hdf5File::attribute(const std::string& object, const std::string& name,
   for (const auto& v : values) padded += v + std::string(longest - v.size(), '\0');
   const hsize_t count = values.size();
   const Handle type = text_type(longest), space(H5Screate_simple(1, &count, nullptr), H5Sclose);
-  const Handle a(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
-                                         H5P_DEFAULT, H5P_DEFAULT),
-                       "attribute"),
-                 H5Aclose);
-  check(H5Awrite(a, type, padded.data()), "attribute");
+  Handle made(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+                                      H5P_DEFAULT, H5P_DEFAULT),
+                    "attribute"),
+              H5Aclose);
+  check(H5Awrite(made, type, padded.data()), "attribute");
+  check(made.close(), "attribute");
 }
 
 void Hdf5File::attribute(const std::string& object, const std::string& name, const std::vector<int>& values) {
@@ -147,41 +153,45 @@ void Hdf5File::attribute(const std::string& object, const std::string& name, con
   const hsize_t count = values.size();
   const Handle space(values.size() == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr),
                      H5Sclose);
-  const Handle a(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), H5T_STD_I32LE, space,
-                                         H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                       "attribute"),
-                 H5Aclose);
-  check(H5Awrite(a, H5T_NATIVE_INT, values.data()), "attribute");
+  Handle made(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), H5T_STD_I32LE, space, H5P_DEFAULT,
+                                      H5P_DEFAULT, H5P_DEFAULT),
+                    "attribute"),
+              H5Aclose);
+  check(H5Awrite(made, H5T_NATIVE_INT, values.data()), "attribute");
+  check(made.close(), "attribute");
 }
 
 void Hdf5File::word_attribute(const std::string& object, const std::string& name, const std::string& value) {
   const Checker check(path_, object);
   const Handle type = text_type(H5T_VARIABLE, H5T_CSET_ASCII), space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle a(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
-                                         H5P_DEFAULT, H5P_DEFAULT),
-                       "attribute"),
-                 H5Aclose);
+  Handle made(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+                                      H5P_DEFAULT, H5P_DEFAULT),
+                    "attribute"),
+              H5Aclose);
   const char* const begin = value.c_str();
-  check(H5Awrite(a, type, &begin), "attribute");
+  check(H5Awrite(made, type, &begin), "attribute");
+  check(made.close(), "attribute");
 }
 
 void Hdf5File::resize(const std::string& dataset, const Extent& extent) {
   const Checker check(path_, dataset);
   const std::vector<hsize_t> now(extent.begin(), extent.end());
-  const Handle set(check(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), "cannot be opened"), H5Dclose);
+  Handle set(check(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), "cannot be opened"), H5Dclose);
   check(H5Dset_extent(set, now.data()), "cannot grow");
+  check(set.close(), "cannot grow");
 }
 
 template <class T>
 void Hdf5File::write(const std::string& dataset, const Box& box, Id type, const T* values, T absent) {
   const Checker check(path_, dataset);
-  const Handle set(check(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), "cannot be opened"), H5Dclose);
+  Handle set(check(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), "cannot be opened"), H5Dclose);
   const Stored& form = stored(dataset, set);
   const TableWriter<T> writer(path_, dataset, set, type);
   if (!form.filters.empty() && is_of_whole_chunks(box, form.chunk, extent_of(set, check)))
     writer.write_filtered(box, form.chunk, form.filters, chunks_shared, values, absent);
   else
     writer.write_plain(box, values);
+  check(set.close(), "cannot be written");
 }
 
 void Hdf5File::write(const std::string& dataset, const Box& box, const double* values) {

@@ -37,6 +37,8 @@ class Handle {
   }
 
   operator Id() const { return id_; }  // NOLINT: so that it goes wherever the library takes a handle
+  /// What the library has put off until then may fail, which the end of a handle tells nobody.
+  int close() { return close_(release()); }
   Id release() { return std::exchange(id_, -1); }
 
  private:

@@ -3,10 +3,11 @@
  *   FAIL_FILE  the end of the file's path; other files are left alone
  *   FAIL_AT    the first write that fails, counted from 1; 0: none
  *   FAIL_WITH  the error's number; half of the first failing write still goes through, as on a disk that fills up
+ *   FAIL_ONCE  if 1: only that write fails, as where a disk is full for a moment
  *   FAIL_SYNC  if 1: what cannot be forced to disk is the file, its writes go through
  *   FAIL_LOG   where the number of writes is left at the end, and behind it how often the file was forced to disk
  *
- * From the first failing write on all fail, writes and resizing of that file. The program's own calls go through
+ * Else all fail from the first failing write on, writes and resizing of that file. The program's own calls go through
  * write, writev, pwrite and ftruncate, libraries' too; stdio's do not, so the terminal is left alone. */
 
 #define _GNU_SOURCE
@@ -42,6 +43,10 @@ static ssize_t granted(int descriptor, size_t size) {
   const int at = atoi(setting("FAIL_AT"));
   ++writes;
   if (at == 0 || writes < at || *setting("FAIL_SYNC")) return (ssize_t)size;
+  if (*setting("FAIL_ONCE")) {
+    errno = atoi(setting("FAIL_WITH"));
+    return writes == at ? -1 : (ssize_t)size;
+  }
   errno = atoi(setting("FAIL_WITH"));
   return writes == at && size > 1 ? (ssize_t)(size / 2) : -1;
 }
@@ -75,7 +80,7 @@ ssize_t pwrite64(int descriptor, const void* bytes, size_t size, off64_t at) {
 /* A file that could not grow may still be cut. */
 static int may_resize(int descriptor, off_t size) {
   const int at = atoi(setting("FAIL_AT"));
-  return at == 0 || writes < at || !is_meant(descriptor) || size <= lseek(descriptor, 0, SEEK_END);
+  return at == 0 || writes < at || *setting("FAIL_ONCE") || !is_meant(descriptor) || size <= lseek(descriptor, 0, SEEK_END);
 }
 
 int ftruncate(int descriptor, off_t size) {

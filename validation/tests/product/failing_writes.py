@@ -28,13 +28,13 @@ def check(holds, what):
         print("FAILED:", what)
 
 
-def call(arguments, file="", at=0, with_error=0, sync=""):
+def call(arguments, file="", at=0, with_error=0, sync="", once=""):
     """The finished process, and how many writes to the file it made."""
     log = work / "writes"
     log.unlink(missing_ok=True)
     made = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, errors="replace",
                           env=dict(os.environ, LD_PRELOAD=str(shim), FAIL_FILE=file, FAIL_AT=str(at),
-                                   FAIL_WITH=str(with_error), FAIL_SYNC=sync, FAIL_LOG=str(log)))
+                                   FAIL_WITH=str(with_error), FAIL_SYNC=sync, FAIL_ONCE=once, FAIL_LOG=str(log)))
     return made, int(log.read_text().split()[0]) if log.exists() else 0
 
 
@@ -86,6 +86,24 @@ def failing_runs(whole):
                 check(same_files(out, whole), f"resumed after {what}: other files than of a run left alone")
 
 
+def runs_that_fail_once(whole):
+    """A write that fails is told even if the next ones go through; what was in the trajectory before stays in it."""
+    out, tried = work / "once", 40
+    made, count = call(run(out), "traj.h5.next")
+    for n in sorted({1 + k * count // tried for k in range(tried)}):
+        shutil.rmtree(out, ignore_errors=True)
+        what = f"write {n} of {count} to traj.h5.next alone"
+        made, _ = call(run(out), "traj.h5.next", n, errno.ENOSPC, once="1")
+        if made.returncode == 0:  # what has been written again, or was not needed any more
+            check(same_files(out, whole), f"{what}: exit code 0, and other files than of a run left alone")
+            continue
+        expect_right_end(made, what, "traj.h5")
+        if (out / "checkpoint").exists():
+            made, _ = call(["run", "--resume", out, "--quiet"])
+            check(made.returncode == 0, f"resuming after {what}: exit code {made.returncode}: {made.stderr}")
+            check(same_files(out, whole), f"resumed after {what}: other files than of a run left alone")
+
+
 def failing_conversions(whole):
     for to, ending in formats:
         target = work / f"converted.{to}"
@@ -102,7 +120,7 @@ def failing_conversions(whole):
 def failing_fields():
     points, out = work / "points.csv", work / "field.csv"
     points.write_text("x,y,z,q\n" + "".join(f"{k},{k % 7},0,1\n" for k in range(200)))
-    arguments = ["field", points, "--out", out]
+    arguments = ["field", points, "--out", out, "--force"]
     made, count = call(arguments, "field.csv")
     check(made.returncode == 0 and count > 0, f"field: {count} writes, exit code {made.returncode}: {made.stderr}")
     for n in some_of(count):
@@ -125,6 +143,7 @@ whole = work / "whole"
 made, _ = call(run(whole))
 check(made.returncode == 0, f"a run left alone: exit code {made.returncode}: {made.stderr}")
 failing_runs(whole)
+runs_that_fail_once(whole)
 failing_conversions(whole)
 failing_fields()
 failing_to_reach_the_disk()
