@@ -12,6 +12,8 @@
 #include "core/deck/directives.hpp"
 #include "core/deck/units.hpp"
 #include "core/io/h5md.hpp"
+#include "core/jet/material.hpp"
+#include "core/jet/nozzle.hpp"
 #include "core/jet/saved_chain.hpp"
 #include "core/jet/scales.hpp"
 
@@ -95,6 +97,22 @@ Jet<D> saved_jet(const Checkpoint& checkpoint, Eigen::Index columns) {
   return jet;
 }
 
+/// Volume that the nozzle has given since it last released a bead; none where the jet draws what it pulls.
+template <int D>
+double fed(const Jet<D>& jet, const Nozzle<D>& nozzle) {
+  const Eigen::Index n = jet.size();
+  return jet.held && n > 0 ? nozzle.held(jet, position<D>(jet.y, n - 1), jet.t).mass : 0;
+}
+
+/// With a given flow a bead is always held, and has what has been fed.
+template <int D>
+void go_on_feeding(Jet<D>& jet, const Nozzle<D>& nozzle, double volume) {
+  const double flow = nozzle.feed().flow();
+  if (flow == 0) return;
+  jet.held = nozzle.inserting();
+  if (fed(jet, nozzle) != volume) jet.last_release = jet.t - volume / flow;
+}
+
 /// The checkpoint's jet, whose scales are those of its own deck, in those of another.
 template <int D>
 Jet<D> rescaled(const Origin& o, const Parameters& p, const Columns& added) {
@@ -105,15 +123,19 @@ Jet<D> rescaled(const Origin& o, const Parameters& p, const Columns& added) {
     refuse(o, "its beads lack constants or columns");
   const Parameters& before = o.deck.parameters;
   const Scales from = scales(before), to = scales(p);
+  const double volumes = (from.mass / before.density_mass) / (to.mass / p.density_mass);
+  const double fed_before = fed(jet, Nozzle<D>(before));
   jet.t *= from.time / to.time;
+  jet.last_release *= from.time / to.time;
   jet.y.template leftCols<D>() *= from.length / to.length;
   jet.y.template middleCols<D>(D) *= from.velocity / to.velocity;
   jet.y.col(stress_column<D>) *= from.stress / to.stress;
   jet.mass *= from.mass / to.mass;
   if (to.charge != 0) jet.charge *= from.charge / to.charge;
-  jet.volume *= (from.mass / before.density_mass) / (to.mass / p.density_mass);
+  jet.volume *= volumes;
   jet.held = jet.held && p.inserting;
-  if (!p.refinement) jet.id.resize(0);
+  go_on_feeding(jet, Nozzle<D>(p), fed_before * volumes);
+  if (!p.refinement) jet.id.resize(0), jet.born = 0;
   const State<D> all = jet.y;
   jet.y.resize(all.rows(), own_columns<D> + static_cast<Eigen::Index>(added.size()));
   jet.y.leftCols(own_columns<D>) = all.leftCols(own_columns<D>);
@@ -127,10 +149,27 @@ Jet<D> rescaled(const Origin& o, const Parameters& p, const Columns& added) {
   return jet;
 }
 
-/// A frame's beads. Whether one is held at the nozzle follows from the distance of the youngest.
+/// The columns of a frame's beads.
+template <int D>
+void set_columns(Jet<D>& jet, const Origin& o, const Columns& added) {
+  for (std::size_t k = 0; k < added.size(); ++k) {
+    const auto same = [&](const FrameColumn& c) { return c.name == added[k].name; };
+    const auto found = std::find_if(o.frame_columns.begin(), o.frame_columns.end(), same);
+    if (found == o.frame_columns.end()) refuse_without(o, added[k]);
+    const auto& values = o.frame.columns[static_cast<std::size_t>(found - o.frame_columns.begin())];
+    jet.y.col(own_columns<D> + static_cast<Eigen::Index>(k)) =
+        Eigen::Map<const Eigen::ArrayXd>(values.data(), jet.size()) / added[k].scale;
+  }
+}
+
+/// A frame's beads, as they were born: it shows them dried, with all of their stress and, where the flow was
+/// given, the youngest with what has been fed since its release. Whether a bead is held at the nozzle follows
+/// else from the distance of the youngest.
 template <int D>
 Jet<D> of_frame(const Origin& o, const Parameters& p, const Columns& added) {
-  const Scales s = scales(p);
+  const Parameters& before = o.deck.parameters;
+  const Scales s = scales(p), s_before = scales(before);
+  const Material material{viscous_stress(before), added, drying(before)};
   const Frame& f = o.frame;
   const auto &position = f.columns[0], &velocity = f.columns[1], &stress = f.columns[2],
              &charge = f.columns[3], &mass = f.columns[4], &radius = f.columns[5];
@@ -143,26 +182,31 @@ Jet<D> of_frame(const Origin& o, const Parameters& p, const Columns& added) {
   jet.y.resize(beads, own_columns<D> + static_cast<Eigen::Index>(added.size()));
   for (auto* constants : {&jet.mass, &jet.charge, &jet.volume}) constants->resize(beads);
   jet.removed = *std::min_element(f.id.begin(), f.id.end() - 1) - 1;
+  set_columns(jet, o, added);
   const double bead_volume = s.mass / p.density_mass;
   for (Eigen::Index i = 0; i < beads; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const Eigen::Map<const Eigen::Array3d> r(&position[3 * k]), upper(&position[3 * k + 3]),
-        v(&velocity[3 * k]);
+        v(&velocity[3 * k]), upper_velocity(&velocity[3 * k + 3]);
+    const double length = (r - upper).matrix().norm(), left = material.remaining<D>(jet.y, i);
+    double state = stress[k];
+    if (material.viscous.acts()) {
+      const double rate = ((v - upper_velocity) * (r - upper)).sum() / (length * length) * s_before.time;
+      state -= material.viscosity_ratio<D>(jet.y, i) * material.viscous(rate) * s_before.stress;
+    }
     jet.y.row(i).template head<own_columns<D>>() << r.head<D>().transpose() / s.length,
-        v.head<D>().transpose() / s.velocity, stress[k] / s.stress;
-    jet.mass[i] = mass[k] / s.mass;
+        v.head<D>().transpose() / s.velocity, state / s.stress;
+    jet.mass[i] = mass[k] / left / s.mass;
     jet.charge[i] = s.charge != 0 ? charge[k] / s.charge : 1;
-    const double length = (r - upper).matrix().norm();
-    jet.volume[i] = std::numbers::pi * radius[k] * radius[k] * length / bead_volume;
+    jet.volume[i] = std::numbers::pi * radius[k] * radius[k] * length / left / bead_volume;
   }
-  for (std::size_t k = 0; k < added.size(); ++k) {
-    const auto same = [&](const FrameColumn& c) { return c.name == added[k].name; };
-    const auto found = std::find_if(o.frame_columns.begin(), o.frame_columns.end(), same);
-    if (found == o.frame_columns.end()) refuse_without(o, added[k]);
-    const auto& values = f.columns[static_cast<std::size_t>(found - o.frame_columns.begin())];
-    jet.y.col(own_columns<D> + static_cast<Eigen::Index>(k)) =
-        Eigen::Map<const Eigen::ArrayXd>(values.data(), beads) / added[k].scale;
+  double fed = 0;
+  if (before.feed == Feed::flow && beads > 0) {
+    const double released = s_before.mass / before.density_mass / bead_volume;
+    fed = std::max(0.0, jet.volume[beads - 1] - released);
+    jet.volume[beads - 1] -= fed;
   }
+  go_on_feeding(jet, Nozzle<D>(p), fed);
   return jet;
 }
 

@@ -6,8 +6,8 @@
 ///     DIR@t    the frame of its traj.h5 at time t, in s or with a unit
 ///
 /// What is taken: the time, and of each bead position, velocity, stress, charge, mass, volume, number and the
-/// columns that the new scene adds (core/jet/columns.hpp), in CGS; of a checkpoint also whether a bead is
-/// held at the nozzle. What the deck says of its initial jet has no effect then, but for the length of an
+/// columns that the new scene adds (core/jet/columns.hpp), in CGS, and what has been fed since the last
+/// release, if the flow is given; of a checkpoint also whether a bead is held at the nozzle. What the deck says of its initial jet has no effect then, but for the length of an
 /// element.
 ///
 /// What may differ between the two decks: all but `system` and a charge density of 0 on one side only;

@@ -6,10 +6,12 @@
 #include "core/base/error.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/h5md.hpp"
+#include "core/jet/material.hpp"
 #include "core/restart/origin.hpp"
 #include "core/restart/resume.hpp"
 #include "forces/scene/scene.hpp"
 #include "integrators/run/simulation.hpp"
+#include "validation/support/run.hpp"
 #include "validation/support/scratch_directory.hpp"
 
 using namespace treejet;
@@ -273,6 +275,68 @@ TEST_CASE("A jet that another run begins with is the same in CGS, whatever the n
   Jet<3> saved;
   last.checkpoint->state.beginning_of_part("march", saved);
   CHECK((unchanged.y == saved.y).all());  // factors of exactly 1
+}
+
+TEST_CASE("A jet begun with a frame is the one that the frame shows, whatever its fluid and its feed") {
+  const std::vector<std::vector<std::string>> fluids = {
+      {},
+      {"feed flow", "flow rate 60 mL/h"},
+      {"evaporation yes", "evaporation polymer frac 0.06"},
+      {"solvent viscosity 0.3 Pa s"},
+      {"kvfluid yes"},
+      {"evaporation yes", "evaporation polymer frac 0.06", "kvfluid yes"}};
+  for (const auto& fluid : fluids) {
+    CAPTURE(fluid);
+    const Deck deck = deck_of("pvp", fluid);
+    const Parameters& p = deck.parameters;
+    Run<3> run(p);
+    run.to(5e-4);
+    const Jet<3>& jet = run.jet();
+    const Material material{viscous_stress(p), run.scene.columns, drying(p)};
+    Origin o{"traj.h5", deck, jet.t * run.unit.time, {}, {}, {}};
+    o.frame = frame<3>(jet, run.scene.nozzle, run.unit, p.nozzle_cross, material);
+    o.frame_columns = frame_columns(frame_columns_of(run.scene.columns));
+    for (const char* viscosity : {"viscosity 20.", "viscosity 35."}) {
+      std::vector<std::string> overrides = fluid;
+      overrides.push_back(viscosity);
+      const Parameters other = deck_of("pvp", overrides).parameters;
+      Run<3> begun(other);
+      begun.scene.jet = jet_of<3>(o, other, begun.scene.columns);
+      const Jet<3>& mine = begun.jet();
+      REQUIRE(mine.size() == jet.size());
+      const Scales from = run.unit, to = begun.unit;
+      const double few_roundings = 1e-12;
+      const auto same = [&](const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
+        CHECK((a - b).abs().maxCoeff() <= few_roundings * b.abs().maxCoeff());
+      };
+      for (int k = 0; k < 3; ++k) {
+        same(mine.y.col(k) * to.length, jet.y.col(k) * from.length);
+        same(mine.y.col(3 + k) * to.velocity, jet.y.col(3 + k) * from.velocity);
+      }
+      same(mine.y.col(stress_column<3>) * to.stress, jet.y.col(stress_column<3>) * from.stress);
+      same(mine.mass * to.mass, jet.mass * from.mass);
+      same(mine.volume * to.mass, jet.volume * from.mass);
+      const double fed = p.feed == Feed::flow ? run.scene.nozzle.drawn(jet) : 0;
+      if (p.feed == Feed::flow) {
+        CHECK(fed > 1.01);
+        CHECK(mine.held);
+        CHECK(begun.scene.nozzle.drawn(mine) * to.mass == Approx(fed * from.mass).epsilon(1e-9));
+      }
+    }
+  }
+}
+
+TEST_CASE("A jet begun with a refined one has no numbers of its beads, unless it refines, too") {
+  const ScratchDirectory place;
+  const std::vector<std::string> refined = {"dynamic refinement yes", "dynamic refinement threshold 0.4"};
+  REQUIRE(run(deck_of("pvp", {"final time 1.d-3", refined[0], refined[1]}), place.path));
+  const Origin o = origin(place.path.string());
+  const Jet<3> plain = jet_of<3>(o, deck_of("pvp", {"final time 1"}).parameters);
+  CHECK(plain.id.size() == 0);
+  CHECK(plain.born == 0);
+  const Jet<3> numbered = jet_of<3>(o, deck_of("pvp", {"final time 1", refined[0], refined[1]}).parameters);
+  CHECK(numbered.id.size() == numbered.size());
+  CHECK(numbered.born >= numbered.size());
 }
 
 TEST_CASE("A run begun with a frame goes on as the other one within the tolerance of the steps") {
