@@ -28,6 +28,8 @@ std::string ChainDecomposition::portion(const Jet<3>& jet, int rank, Stretch bea
     const int row = own().first + beads.first - layout_.own(rank).first, n = beads.size();
     some.jet.t = jet.t;
     some.jet.born = jet.born;
+    some.jet.held = jet.held;
+    some.jet.last_release = jet.last_release;
     set_rows(some.jet, n, jet.y.cols());
     copy_beads(jet, jet.y, {row, row + n}, some.jet, 0);
     some.jet.removed = jet.removed + beads.first;

@@ -107,21 +107,22 @@ void DistributedMotion::repel(Rows own, State<3>& slope) {
   if (points > 0) subdomain.q = chain.point_charge.data() + first_;
   solver_->field(subdomain, {0, points}, field, worthwhile(threads_, points));
   if (points == 0) return;
-  if (local_.fed_element() && subdomains_.has_youngest()) bind_youngest_field(own.size());
   for (int k = 0; k < 3; ++k)
     slope.col(velocity_column<3> + k).segment(own.first, own.size()) +=
         Q_ * chain.point_charge.segment(first_, own.size()) * chain.inverse_mass.segment(first_, own.size()) *
         field_.col(k).head(own.size());
+  if (local_.fed_element() && subdomains_.has_youngest()) bind_youngest(own, slope);
 }
 
-/// The field that accelerates the youngest bead, the last of the own ones, is in part that at the held bead.
-void DistributedMotion::bind_youngest_field(int own) {
+/// What accelerates the youngest bead, the last of the own ones, is in part the field at the held bead.
+void DistributedMotion::bind_youngest(Rows own, State<3>& slope) const {
   const Chain<3>& chain = local_.chain();
   const auto share = local_.fed_element()->shares(chain);
-  const int youngest = chain.beads - 1;
+  const int youngest = chain.beads - 1, row = own.size() - 1;
   const double specific_charge = chain.point_charge[youngest] * chain.inverse_mass[youngest];
-  field_.row(own - 1) *= share.own;
-  if (chain.holds_bead()) field_.row(own - 1) += share.held / specific_charge * field_.row(own);
+  Eigen::Array<double, 1, 3> added = (share.own - 1) * specific_charge * field_.row(row);
+  if (chain.holds_bead()) added += share.held * field_.row(row + 1);
+  slope.row(own.last - 1).segment<3>(velocity_column<3>) += Q_ * added;
 }
 
 }  // namespace treejet

@@ -69,7 +69,7 @@ class DistributedMotion final : public FullMotion<3>, private SubdomainRows<3> {
   using RecordOfRow = std::function<std::vector<double>(int row)>;
   std::array<std::vector<double>, 2> of_neighbours(const RecordOfRow& record) const;
   void repel(Rows own, State<3>& slope);
-  void bind_youngest_field(int own);
+  void bind_youngest(Rows own, State<3>& slope) const;
   void set_last_evaluation(const Jet<3>& jet, double t, const State<3>& y);
 
   EquationsOfMotion<3>& local_;

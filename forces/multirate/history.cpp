@@ -285,6 +285,7 @@ void History<D>::visit_all_but_beads(Archive& state) {
     m.point_charge = charge;
     m.field.resize(0, D);
     m.slope.resize(0, columns);
+    m.state.resize(0, with_states_ ? D + columns : m.state.cols());
   }
 }
 

@@ -141,6 +141,23 @@ TEST_CASE("Subdomains of a jet that is fed by flow move as the whole one does") 
   CHECK(told_by_first(difference(subdomains, whole, p), ranks) < 1e-6);  // of the field, and so of the way
 }
 
+TEST_CASE("Subdomains of a jet that is fed by flow keep at two rates what the whole one has at one") {
+  const Ranks& ranks = started_ranks();
+  const double seconds = 2e-3, interval = 5e-4;
+  const auto jet = [](const Directives& more) {
+    Directives all = {"tolerance 1.d-9", "points 60", "initial length 1.2", "feed flow", "flow rate 60 mL/h"};
+    all.insert(all.end(), more.begin(), more.end());
+    return example("pvp", all);
+  };
+  const Flight whole = flight(jet({"multirate no"}), {}, seconds, interval);
+  const Parameters p = jet(in_subdomains_at_two_rates("1.d-6"));
+  const Flight subdomains = flight(p, ranks, seconds, interval);
+  CHECK(subdomains.effort.released > 1);
+  CHECK(3 * subdomains.full_evaluations < 2 * subdomains.effort.evaluations);
+  // what two rates err falls with the tolerance: 4e-5 of the whole jet at 1e-7, 2e-6 here
+  CHECK(told_by_first(difference(subdomains, whole, p), ranks) < 1e-5);
+}
+
 TEST_CASE("A run of subdomains that see each other through expansions keeps the accuracy") {
   const Ranks& ranks = started_ranks();
   const double seconds = 2e-5, interval = 1e-5;
