@@ -4,6 +4,7 @@
 /// A bead has ended where its value is the end to the last bit. Before that its rate is smooth, beyond the
 /// end, too, so that the instant can be found on the dense output like any other event. Scaled.
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -35,12 +36,13 @@ class Endings {
     return most;
   }
 
-  /// Puts beads at an end, but for round-off, or beyond it there exactly. False if there was nothing to do.
-  bool hold(State<D>& y) const {
+  /// Puts beads at an end, but for round-off or for what is `missing`, or beyond it there exactly. False if
+  /// there was nothing to do.
+  bool hold(State<D>& y, double missing = 0) const {
     bool moved = false;
     for (const Ending& e : columns_)
       for (double& value : y.col(e.column))
-        if (value <= e.value + e.round_off && value != e.value) {
+        if (value <= e.value + std::max(e.round_off, missing) && value != e.value) {
           value = e.value;
           moved = true;
         }

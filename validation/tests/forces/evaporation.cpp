@@ -156,6 +156,31 @@ TEST_CASE(
   CHECK(last[7] == Approx(std::numbers::pi * 0.005 * 0.005 * 0.02 * (1 - last[8])).epsilon(1e-12));
 }
 
+TEST_CASE("A bead that is as near to dry as times can tell apart is dry, and the run goes on") {
+  struct Count final : Observer<3> {
+    void segment(const Jet<3>&, const DenseOutput<3>&) override {
+      if (++segments > 100) throw std::runtime_error("the march does not get on");
+    }
+    int segments = 0;
+  } count;
+  Parameters p = with_steps(drying(EvaporationModel::jetspin, 0.06), Scheme::heun, 1e-6);
+  p.inserting = p.removing = p.perturb = false;
+  Run<3> run(p);
+  Jet<3>& jet = run.scene.jet;
+  const Column& solvent = run.scene.columns.at(0);
+  jet.t = 1e9 / run.unit.time * 1e-6;  // where times are farther apart than events are told
+  jet.y(0, own_columns<3>) = *solvent.end + 1e-3 * solvent.small;
+  State<3> slope;
+  (*run.scene.motion)(jet, jet.t, jet.y, slope);
+  const double next_time = std::nextafter(jet.t, 2 * jet.t) - jet.t;
+  // dry within a third of the time between two numbers, and farther from it than round-off of the column
+  jet.y(0, own_columns<3>) = *solvent.end - slope(0, own_columns<3>) * next_time / 3;
+  REQUIRE(jet.y(0, own_columns<3>) > *solvent.end + 1e-12 * solvent.small);
+  run.to(jet.t * run.unit.time + 5e-6, {&count});
+  CHECK(jet.y(0, own_columns<3>) == *solvent.end);
+  CHECK(count.segments >= 5);
+}
+
 TEST_CASE("Without evaporation what is told of it is the fluid of the deck") {
   Parameters p = with_tolerance(example("pvp"), 1e-5);
   p.collector_distance = 0.4;
