@@ -3,8 +3,7 @@
 /// numbers are written so that reading gives them back to the last bit.
 ///
 ///     xyz      lines `C x y z`, padded with `C 0 0 0` to the points of the largest frame as print xyz does:
-///     VMD
-///              and MDAnalysis take the number of the first frame for that of all, without a word
+///              VMD and MDAnalysis take the number of the first frame for that of all, without a word
 ///
 ///     extxyz   extended XYZ: species (C a bead, X the nozzle), pos, id, velo, and tension, bead_charge,
 ///              bead_mass, jet_radius, names that ASE and OVITO keep as they are, and

@@ -6,8 +6,7 @@
 /// volume and of the mass of its bead, c = c_0 / nu the concentration. Through the surface of an element of
 /// length l and radius a in air that goes past at speed u the solvent leaves at
 ///
-///     dV_s/dt = - pi D Sh l delta ,     Sh = 0.495 Re^(1/3) Sc^(1/2) ,   Re = 2 a u / nu_a ,   Sc = nu_a / D
-///     ,
+///     dV_s/dt = - pi D Sh l delta ,   Sh = 0.495 Re^(1/3) Sc^(1/2) ,   Re = 2 a u / nu_a ,   Sc = nu_a / D ,
 ///
 /// D the diffusivity of its vapour in air, nu_a the viscosity of air. By the vapour that air at the surface
 /// and far away can hold (`vapour`), with the activity of Flory and Huggins, phi = c the share of polymer,

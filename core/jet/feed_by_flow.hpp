@@ -13,9 +13,9 @@
 /// and resists bead n-1 with a quarter of its mass (forces/terms/fed_element.hpp).
 ///
 ///     release  at V = 2: the held bead becomes row n, where it is, as fast as it is. Both halves keep
-///     radius,
-///              strain rate and stress. Nothing else changes but the names: mass, charge, momentum and the
-///              field are continuous; V is 1 again and an empty bead is held (place, at the same instant).
+///              radius, strain rate and stress. Nothing else changes but the names: mass, charge, momentum
+///              and the field are continuous; V is 1 again and an empty bead is held (place, at the same
+///              instant).
 ///
 /// The nozzle carries half a bead's mass, and the charge of a whole one: half ends the element, half stands
 /// for the fluid behind it. Were the tube to end there, short waves along case 3 would grow at l_step = 4

@@ -4,15 +4,14 @@
 /// Element e, of volume V and length l, between beads i (older) and j, is split at a new bead k:
 ///
 ///     V_k = V_i = V / 2                         of each half
-///     r_k, v_k = sum w_n (r_n, v_n)             four-point rule: w_n = Lagrange's weights at the middle of
-///                                               the element, in the volume between beads; (-1, 9, 9, -1) /
-///                                               16 if all are alike
-///     sigma_i, sigma_k = sigma + and - d        d from the slope along the chain, as far as both halves stay
-///                                               between the neighbours
-///     m_k = m_i f_i / 2 + m_j f_j / 2           half of what belongs to the element: f_i = V / (V_below +
-///     V),
-///                                               taken from its beads; charge likewise
-///     v_i, v_j, v_k += u                        so that momentum is kept: u is of second order in l
+///     r_k, v_k = sum w_n (r_n, v_n)         four-point rule: w_n = Lagrange's weights at the middle of the
+///                                           element, in the volume between beads; (-1, 9, 9, -1) / 16 if
+///                                           all are alike
+///     sigma_i, sigma_k = sigma + and - d    d from the slope along the chain, as far as both halves stay
+///                                           between the neighbours
+///     m_k = m_i f_i / 2 + m_j f_j / 2       half of what belongs to the element, taken from its beads:
+///                                           f_i = V / (V_below + V); charge likewise
+///     v_i, v_j, v_k += u                    so that momentum is kept: u is of second order in l
 ///
 /// The way along the chord at which k stands is bounded as the stress is, so that the stretches l / V of the
 /// halves, and with them the radii sqrt(V / l), stay between those of the neighbours. At the free end, next

@@ -5,8 +5,7 @@
 /// element turns by c, its length times the larger curvature at its beads. It is split where
 ///     l > longest               `dynamic refinement threshold`, or
 ///     c > sqrt(24 tolerance)    `dynamic refinement tolerance`: the chord of an arc that turns by c is
-///     shorter
-///                               than the arc by c^2 / 24,
+///                               shorter than the arc by c^2 / 24,
 /// a larger neighbour first, so that volumes differ by a factor 2 at the most from element to element, and
 /// only if its halves are no shorter than twice their radius. Two elements at a bead are merged where
 ///     both have the same volume, together no more than an element has that leaves the nozzle, their

@@ -2,14 +2,12 @@
 /// Means over the steady state, with their standard error: what one quotes of a run.
 ///
 /// Start.   MSER: of all starts in the first half of the series, the one at which the estimated variance of
-/// the
-///          mean, s^2 / m of the m values from there on, is least (White, Simulation 69 (1997) 323). Block
-///          means of 5 values carry the search, as long as there are 50 values.
+///          the mean, s^2 / m of the m values from there on, is least (White, Simulation 69 (1997) 323).
+///          Block means of 5 values carry the search, as long as there are 50 values.
 /// Error.   Block averaging: the standard error from means of blocks of B values grows with B until the
-/// blocks
-///          are independent (Flyvbjerg & Petersen, J. Chem. Phys. 91 (1989) 461). The smallest B is taken, of
-///          sizes that grow by a quarter, with B^3 > 2 m (e_B / e_1)^4, which weighs bias against noise (Lee
-///          et al., Phys. Rev. E 83 (2011) 066706).
+///          blocks are independent (Flyvbjerg & Petersen, J. Chem. Phys. 91 (1989) 461). The smallest B is
+///          taken, of sizes that grow by a quarter, with B^3 > 2 m (e_B / e_1)^4, which weighs bias against
+///          noise (Lee et al., Phys. Rev. E 83 (2011) 066706).
 /// Steady   if the two halves of what is left agree: their means differ by at most 3 of the difference's
 ///          standard errors, 2 e, and what one value more or less moves them, and a millionth of them; and B
 ///          leaves 4 blocks at least.

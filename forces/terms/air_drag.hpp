@@ -4,11 +4,11 @@
 ///
 ///   drag of a cylinder    f_e = - l_e ( pi a_e rho c_f |w_t| w_t t_e  +  a_e rho C_n |w_n| w_n )
 ///
-///     full       bead i bears half of f_i and half of f_{i-1}; the nozzle bears its half of the youngest
-///     jetspin    bead i bears f_i, drag along the jet only
+///     full            bead i bears half of f_i and half of f_{i-1}; the nozzle bears its half of the
+///                     youngest
+///     jetspin         bead i bears f_i, drag along the jet only
 ///     jetspin-1.20    the same, with |w_t| for w_t, and 1 cm for the l_i of the lift: neither is a property
-///     of
-///                air, but with both its authors' record of a jet in counter-flow is met
+///                     of air, but with both its authors' record of a jet in counter-flow is met
 ///
 ///   lift of a bend        f_i = - l_i rho w_t^2 pi ((a_i + a_{i-1}) / 2)^2 k c_i
 ///

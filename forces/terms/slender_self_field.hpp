@@ -16,16 +16,13 @@
 ///     bead of half a cell. A whole one stands for a tube that reaches half an element farther.
 ///   - Elements below l = 2 a: g -> ln(1 + e^(8 g)) / 8, 3/2 -> 3/2 / (1 + e^(-8 g)). U stays positive and
 ///   finite.
-///   - While a bead is held with charge s, the youngest element, of length d, has (1 - s) T(d) + s T(d -
-///   l_step).
-///
+///   - While a bead is held with charge s, the youngest element, of length d, has
+///     (1 - s) T(d) + s T(d - l_step).
 ///   - An element that dries (core/jet/evaporation.hpp) keeps its charge: with nu left of its volume, and of
-///   the
-///     mass of its beads, Q_e = V_e sqrt(c_i c_up nu_up / nu_e), where the nozzle's nu is 1.
-///
+///     the mass of its beads, Q_e = V_e sqrt(c_i c_up nu_up / nu_e), where the nozzle's nu is 1.
 ///   - Where elements of unequal volume meet, which refinement brings about: g is less, and the 3/2 - g of
-///   the
-///     tension more, by c_e of joints.hpp, of the volumes at the nozzle, to which charges are in proportion.
+///     the tension more, by c_e of joints.hpp, of the volumes at the nozzle, to which charges are in
+///     proportion.
 ///
 /// Errors: O(a^2 / R^2) at distance R; second order in smooth spacings. A form exact at any l/a on a straight
 /// line softens the repulsion of some eight neighbours by a and has a g that is greater by 0.6 (a / l)^2; it

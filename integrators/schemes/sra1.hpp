@@ -2,8 +2,9 @@
 /// Roessler's scheme SRA1 for additive noise, dy = f(t, y) dt + b dW, of strong order 1.5; without noise it
 /// has order 2:
 ///
-///     Y  = y + 3/4 h f(t, y) + 3/2 b Z / h ,        Z = integral of W over the step = h / 2 (dW + U / sqrt
-///     3) y' = y + h (1/3 f(t, y) + 2/3 f(t + 3/4 h, Y)) + b dW ,
+///     Y  = y + 3/4 h f(t, y) + 3/2 b Z / h ,
+///     y' = y + h (1/3 f(t, y) + 2/3 f(t + 3/4 h, Y)) + b dW ,
+///     Z  = integral of W over the step = h / 2 (dW + U / sqrt 3) ,
 ///
 /// dW and U independent, normal, of variance h. Noise moves the velocities only (core/jet/noise.hpp); the
 /// positions get b Z through the stage. JETSPIN's `integrator 4`, Platen's scheme with one sign for the

@@ -1,8 +1,7 @@
 #pragma once
 /// Oldroyd's law B: Hookean dumbbells in a solvent. Their conformation follows the element and relaxes,
 ///
-///     dA_xx/dt = 2 r A_xx - (A_xx - 1) ,    dA_rr/dt = - r A_rr - (A_rr - 1) ,    sigma = (A_xx - A_rr) / 3
-///     ,
+///     dA_xx/dt = 2 r A_xx - (A_xx - 1) ,   dA_rr/dt = - r A_rr - (A_rr - 1) ,   sigma = (A_xx - A_rr) / 3 ,
 ///
 /// hence, with h = ln A_rr ,
 ///
