@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <limits>
 #include <list>
+#include <stdexcept>
 #include <thread>
 
 #include "parallel/launch.hpp"
@@ -27,6 +29,13 @@ std::int64_t bytes_of(std::size_t words) {
   return static_cast<std::int64_t>(words * sizeof(double));
 }
 
+/// What MPI counts in int.
+int counted(std::size_t words) {
+  if (words > std::size_t{std::numeric_limits<int>::max()})
+    throw std::length_error("a message between ranks has more than 2^31 words; more ranks share them");
+  return static_cast<int>(words);
+}
+
 /// One message for each rank: its rows of all columns, and how long it spent on the gathering before.
 struct Message {
   std::vector<int> counts, places;
@@ -35,13 +44,14 @@ struct Message {
   void arrange(int columns, const std::vector<int>& borders) {
     counts.clear();
     places.clear();
-    int place = 0;
+    std::size_t place = 0;
     for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
-      counts.push_back(columns * (borders[k + 1] - borders[k]) + 1);
-      places.push_back(place);
-      place += counts.back();
+      const std::size_t rows = index(borders[k + 1] - borders[k]), words = index(columns) * rows + 1;
+      counts.push_back(counted(words));
+      places.push_back(counted(place));
+      place += words;
     }
-    values.resize(static_cast<std::size_t>(place));
+    values.resize(place);
   }
   double* of(std::size_t rank) { return values.data() + places[rank]; }
   double& last_word(std::size_t rank) { return of(rank)[counts[rank] - 1]; }
@@ -165,7 +175,7 @@ Ranks::Messages Ranks::exchange(const Messages& to) const {
   const auto begin = Clock::now();
   const MPI_Comm comm = world_->everyone;
   std::vector<int> out(to.size()), in(to.size());
-  for (std::size_t k = 0; k < to.size(); ++k) out[k] = static_cast<int>(to[k].size());
+  for (std::size_t k = 0; k < to.size(); ++k) out[k] = counted(to[k].size());
   MPI_Alltoall(out.data(), 1, MPI_INT, in.data(), 1, MPI_INT, comm);
   ++world_->traffic.exchanges;
   Messages from(to.size());
@@ -195,8 +205,8 @@ void Ranks::send(int to, std::vector<double> message) const {
   under_way.remove_if([](UnderWay& sent) { return sent.done(); });
   under_way.push_back({std::move(message), MPI_REQUEST_NULL});
   UnderWay& sent = under_way.back();
-  MPI_Isend(sent.message.data(), static_cast<int>(sent.message.size()), MPI_DOUBLE, to, sent_alone,
-            world_->everyone, &sent.request);
+  MPI_Isend(sent.message.data(), counted(sent.message.size()), MPI_DOUBLE, to, sent_alone, world_->everyone,
+            &sent.request);
   ++world_->traffic.messages;
   world_->traffic.message_bytes += bytes_of(sent.message.size());
 }
@@ -221,7 +231,7 @@ std::string Ranks::to_first(int from, std::string bytes) const {
   const auto begin = Clock::now();
   const MPI_Comm comm = world_->everyone;
   if (rank_ == from) {
-    MPI_Ssend(bytes.data(), static_cast<int>(bytes.size()), MPI_CHAR, 0, to_the_first, comm);
+    MPI_Ssend(bytes.data(), counted(bytes.size()), MPI_CHAR, 0, to_the_first, comm);
     ++world_->traffic.messages;
     world_->traffic.message_bytes += static_cast<std::int64_t>(bytes.size());
   } else {

@@ -39,13 +39,18 @@ Team::~Team() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-/// A job is closed while it is described: whoever has seen the one before can take no task of it by then.
 void Team::run(int threads, int count, const std::function<void(int)>& f) {
-  const std::unique_lock alone(busy_, std::try_to_lock);
-  if (!alone || threads <= 1 || count <= 1) {
+  const bool shares = threads > 1 && count > 1 && !busy_.test_and_set();
+  if (!shares) {
     for (int k = 0; k < count; ++k) f(k);
     return;
   }
+  share(threads, count, f);
+  busy_.clear();
+}
+
+/// A job is closed while it is described: whoever has seen the one before can take no task of it by then.
+void Team::share(int threads, int count, const std::function<void(int)>& f) {
   while (static_cast<int>(threads_.size()) < threads - 1)
     threads_.emplace_back([this, number = static_cast<int>(threads_.size()) + 1] { work(number); });
   const std::uint64_t closed = (job(job_and_task_) | 1) * one_job;

@@ -10,7 +10,6 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -29,6 +28,7 @@ class Team {
   void run(int threads, int count, const std::function<void(int)>& f);
 
  private:
+  void share(int threads, int count, const std::function<void(int)>& f);
   std::uint64_t take_part(int number);
   void work(int number);
 
@@ -36,7 +36,7 @@ class Team {
   std::atomic<std::uint64_t> job_and_task_{0};
   std::atomic<const std::function<void(int)>*> f_{nullptr};
   std::atomic<int> count_{0}, helpers_{0}, done_{0};
-  std::mutex busy_;
+  std::atomic_flag busy_;  ///< no mutex: a task that asks holds it already
   std::function<void(int)> at_start_;
   std::vector<std::thread> threads_;
 };

@@ -33,7 +33,7 @@ int flags(OutputFile::Existing existing) {
 
 FileError exists_already(const fs::path& path) {
   return FileError(fmt::format(
-      "{}: exists already; choose another directory with --out, or --force to replace it", path.string()));
+      "{}: exists already; choose another place with --out, or --force to replace it", path.string()));
 }
 
 OutputFile::OutputFile(fs::path path, Existing existing)

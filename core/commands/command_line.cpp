@@ -102,6 +102,7 @@ void add_field(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(1, 1000000));
   field.add_flag("--compare", a.compare, "measure the error against direct summation");
   field.add_option("--out", a.field_out, "write x,y,z,q,ex,ey,ez to this file");
+  field.add_flag("--force", a.force, "replace a file that is there already");
   field.add_flag("--json", a.json, "one JSON object instead of text");
   field.add_option("--order", c.coulomb_order, "pin the order of the expansions")
       ->transform(written_as_in_decks(integer));

@@ -22,6 +22,8 @@ std::string convert(const Conversion& c) {
   if (format == frame_formats.end()) throw InputError(fmt::format("--to {}: no such format", c.to));
   std::filesystem::path out = c.out;
   if (out.empty()) out = std::filesystem::path(c.from).replace_extension(format->extension);
+  if (std::filesystem::equivalent(out, c.from, error))
+    throw FileError(fmt::format("{}: holds the trajectory; choose another file with --out", out.string()));
 
   const auto writer =
       format->writer({out, c.existing, program(file.content().made_by), file.points(), file.columns()});

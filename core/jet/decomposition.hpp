@@ -74,6 +74,7 @@ class Decomposition {
     Jet<D> some = at<D>(jet, jet.t, jet.y.topRows(most));
     for (auto* constants : {&some.mass, &some.charge, &some.volume})
       *constants = constants->head(most).eval();
+    if (some.id.size() > 0) some.id = some.id.head(most).eval();
     take(some);
   }
 

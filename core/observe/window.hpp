@@ -89,7 +89,9 @@ class Statistics {
   /// counted.
   double charge_landed(const Jet<D>& jet) const {
     if (jet.removed == 0 || jet.size() == 0) return charge_landed_;
-    const double way = (jet.y(0, 0) - next_arrival_from_) / (collector_.distance() - next_arrival_from_);
+    // seen at step ends, the next one may have been there already as the last one was removed
+    const double left = collector_.distance() - next_arrival_from_;
+    const double way = left > 0 ? (jet.y(0, 0) - next_arrival_from_) / left : 1;
     return charge_landed_ + way * jet.charge[0];
   }
 

@@ -22,7 +22,7 @@ constexpr const char *newest = checkpoint_names[0], *older = checkpoint_names[1]
 constexpr const char* unfinished = "checkpoint.new";
 
 /// In front of the bytes. The number changes with the layout of what follows.
-constexpr std::string_view title = "treejet checkpoint 5\n";
+constexpr std::string_view title = "treejet checkpoint 6\n";
 
 struct Seal {
   std::uint64_t byte_order = 0x0102030405060708, length = 0, checksum = 0;

@@ -115,20 +115,25 @@ double March<D>::error() const {
   return parts_.decomposition.greatest(parts_.norm(e, fast_region_ ? fast_region_->jet.y : jet_.y));
 }
 
+/// All who hold a subdomain name the same bead: the one that errs most.
 template <int D>
 void March<D>::give_up() const {
   const State<D>& error = parts_.stepper.error;
+  const Decomposition<D>& all = parts_.decomposition;
   Eigen::Index bead = 0;
+  double most = 0;
   const bool of_these = next_.y.rows() == jet_.size();  // no event has changed their number since
   if (error.rows() > 0 && of_these) {
-    error.abs().rowwise().maxCoeff().maxCoeff(&bead);
+    most = error.abs().rowwise().maxCoeff().maxCoeff(&bead);
     if (fast_region_ && bead >= fast_region_->oldest) bead += jet_.size() - error.rows();
   }
+  const bool mine = !(all.greatest(most) > most);
+  const auto number = static_cast<std::int64_t>(all.greatest(mine ? double(all.before(jet_) + bead) : 0));
   throw NumericalError(
       fmt::format("at scaled time {}: the step has fallen below round-off because of bead {} (number {} "
                   "since the start); "
                   "likely cause: beads have met, or the tolerance is too small to be met",
-                  jet_.t, bead, parts_.decomposition.before(jet_) + bead));
+                  jet_.t, number - jet_.removed, number));
 }
 
 /// Steps from here to next_ until the step control is content; returns the time up to which an event may be
@@ -172,6 +177,8 @@ void March<D>::begin_piece() {
 
 template <int D>
 void March<D>::start() {
+  effort_.begun = jet_.t;
+  if (jet_.size() > 0) effort_.drawn = parts_.nozzle.drawn(jet_);
   hold_ended();
   for (auto* w : parts_.observers) w->start(jet_);
   begin_piece();
@@ -254,10 +261,12 @@ std::optional<typename March<D>::Due> March<D>::located_event(double reach) {
   return due;
 }
 
-/// Beads whose column has come to its end stay there. True if any had to be moved, on whichever rank.
+/// Beads whose column has come to its end, but for what is `missing`, stay there. True if any had to be moved,
+/// on whichever rank.
 template <int D>
-bool March<D>::hold_ended() {
-  return parts_.endings.any() && parts_.decomposition.greatest(parts_.endings.hold(jet_.y) ? 1 : 0) > 0;
+bool March<D>::hold_ended(double missing) {
+  if (!parts_.endings.any()) return false;
+  return parts_.decomposition.greatest(parts_.endings.hold(jet_.y, missing) ? 1 : 0) > 0;
 }
 
 /// Shows the watchers the solution up to the event, or the whole step, and goes there.
@@ -272,7 +281,8 @@ void March<D>::commit(std::optional<Due> due) {
   if (due) {
     jet_.y = segment.at(due->t);  // of which the jet is the beginning
     jet_.t = due->t;
-    hold_ended();
+    // time has no number so near to the end as the rate is high: who was due is there
+    hold_ended(due->kind == Kind::ending ? -overdue(Kind::ending, jet_.y, jet_.t) : 0);
     settle(*due);
   } else {
     std::swap<SolutionPoint<D>>(jet_, next_);
@@ -341,6 +351,7 @@ void March<D>::removal() {
                     "another could be inserted; likely cause: the time step is too large",
                     jet_.t));
   }
+  effort_.arrived += jet_.volume[0];
   announce(EventKind::removal);
   parts_.motion.before_removal(jet_);
   drop_first<D>(jet_);

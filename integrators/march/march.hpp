@@ -33,6 +33,8 @@ namespace treejet {
 struct Effort {
   std::int64_t evaluations = 0, steps = 0, rejected = 0, retaken = 0, placed = 0, released = 0, removed = 0;
   std::int64_t split = 0, merged = 0;  ///< elements
+  double begun = 0, drawn = 1;         ///< when, and what was behind the youngest bead then; scaled
+  double arrived = 0;                  ///< volume of the beads removed, as it left the nozzle; scaled
 };
 
 template <int D>
@@ -106,7 +108,7 @@ class March {
   void removal();
   void settle(const Due& due);
   bool look_at_step_end();
-  bool hold_ended();
+  bool hold_ended(double missing = 0);
   bool is_due(Kind kind) const;
   bool refine_if_due(std::int64_t released_before);
 

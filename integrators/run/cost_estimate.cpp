@@ -98,7 +98,7 @@ std::string bytes_text(double bytes) {
 }  // namespace
 
 void expect_feasible_trial(const Parameters& p) {
-  constexpr double most_pairs = 5e10, pairs_a_second = 1e9;  // of one core; a step has some ten evaluations
+  constexpr double most_pairs = 5e9, pairs_a_second = 1e9;  // of one core; a step has some ten evaluations
   const double n = initial_elements(p), pairs = n * n, memory = memory_of_machine();
   if (n * bytes_a_bead > memory)
     throw InputError(

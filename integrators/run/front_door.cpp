@@ -44,8 +44,8 @@ int dispatch(const Arguments& a, const Ranks& ranks, const OwnPhysics& own) {
   } else if (a.command == "info") {
     fmt::print("{}", file_info(a.file));
   } else {
-    run({a.points, a.field_out, coulomb_request(a.coulomb, /*points_move*/ false), threads(a, ranks), ranks,
-         a.repeat, a.compare, a.json},
+    run({a.points, a.field_out, existing(a), coulomb_request(a.coulomb, /*points_move*/ false),
+         threads(a, ranks), ranks, a.repeat, a.compare, a.json},
         std::cout);
   }
   return 0;

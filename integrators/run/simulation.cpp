@@ -238,13 +238,13 @@ std::string Simulation<D>::flow_summary() const {
   const Effort& e = march_.effort();
   constexpr double hour = 3600, microlitres = 1000, nanoampere = 1e-9;
   const double volume = s.mass / p.density_mass;  // of a bead, cm^3
-  const double fed = double(e.released) + (jet_.size() > 0 ? nozzle_.drawn(jet_) - 1 : 0);
-  const double beads_a_second = t() > 0 ? fed / t() : 0;
+  const double fed = double(e.released) + (jet_.size() > 0 ? nozzle_.drawn(jet_) - e.drawn : 0);
+  const double seconds = t() - e.begun * s.time, beads_a_second = seconds > 0 ? fed / seconds : 0;
   return fmt::format("fed {:.4g} uL, in the mean {:.4g} mL/h and {:.4g} nA{}; {:.4g} uL arrived\n",
                      fed * volume * microlitres, beads_a_second * volume * hour,
                      beads_a_second * s.charge / statcoulomb_per_coulomb / nanoampere,
                      p.feed == Feed::flow ? " as asked for" : ", drawn by the jet",
-                     double(e.removed) * volume * microlitres);
+                     e.arrived * volume * microlitres);
 }
 
 template class Simulation<1>;

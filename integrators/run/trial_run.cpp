@@ -52,7 +52,7 @@ Trial trial_run(const Parameters& p, const System<D>& system, double seconds) {
     const double now = elapsed();
     if (now >= double(trial.samples.size()) * seconds / samples)
       trial.samples.push_back(onlooker.sample(now, watched->effort()));
-    return now >= seconds;
+    return now >= seconds && watched->effort().steps > 0;  // of no step nothing follows
   };
   Integration<D> integration(p, system, {&onlooker}, stop_here);
   March<D>& march = integration.march;

@@ -139,9 +139,19 @@ def page(run: Run, most_frames: int = 600) -> str:
             .replace("{data}", data))
 
 
+def _is_page(path: Path) -> bool:
+    try:
+        with open(path, "rb") as file:
+            return file.read(15).lower() == b"<!doctype html>"
+    except OSError as problem:
+        raise FileError(f"{path}: {problem.strerror}") from None
+
+
 def view(run: Run, out: Optional[Path] = None, most_frames: int = 600) -> Path:
     """Writes the page, beside the files unless `out` names another place; returns where."""
     target = out or run.directory / "view.html"
+    if target.exists() and not _is_page(target):
+        raise FileError(f"{target}: is there already and no page; choose another name with --out")
     text = page(run, most_frames)
     try:
         target.write_text(text, encoding="utf-8")

@@ -20,7 +20,7 @@ bool same(const PointTable& a, const PointTable& b) {
 void write(const std::filesystem::path& file, const PointTable& points) {
   PointTable field = points;
   const FieldArrays<3> of_field = {field.r[0].data(), field.r[1].data(), field.r[2].data()};
-  write_field(file.string(), points, of_field, field.q.data());
+  write_field(file.string(), OutputFile::Existing::replace, points, of_field, field.q.data());
 }
 
 }  // namespace

@@ -112,6 +112,9 @@ void run(const FieldCommand& command, std::ostream& report) {
   std::error_code error_code;
   if (!command.out.empty() && std::filesystem::equivalent(command.out, command.points, error_code))
     throw FileError(fmt::format("{}: holds the points; choose another file with --out", command.out));
+  const bool keeps = command.existing == OutputFile::Existing::keep;
+  if (keeps && !command.out.empty() && std::filesystem::exists(command.out, error_code))
+    throw exists_already(command.out);
   const PointTable points = read_points(command.points);
   std::vector<double> E[3];
   for (auto& values : E) values.resize(points.q.size());
@@ -129,7 +132,7 @@ void run(const FieldCommand& command, std::ostream& report) {
   for (auto& values : beside) values.resize(points.q.size());
   solver.field(points.view(), {0, points.size()}, {beside[0].data(), beside[1].data(), beside[2].data()},
                {command.threads}, potential.data());
-  if (command.ranks.first()) write_field(command.out, points, field, potential.data());
+  if (command.ranks.first()) write_field(command.out, command.existing, points, field, potential.data());
 }
 
 }  // namespace treejet

@@ -9,6 +9,7 @@
 #include <iosfwd>
 #include <string>
 
+#include "core/base/output_file.hpp"
 #include "forces/coulomb/solver/coulomb_solver.hpp"
 
 namespace treejet {
@@ -16,6 +17,7 @@ namespace treejet {
 struct FieldCommand {
   std::string points;  ///< file to read
   std::string out;     ///< file to write the field to, or empty
+  OutputFile::Existing existing = OutputFile::Existing::keep;
   CoulombRequest request;
   Threads threads = {};
   Ranks ranks = {};

@@ -81,9 +81,9 @@ PointTable read_points(const std::string& file) {
   return table;
 }
 
-void write_field(const std::string& file, const PointTable& points, const FieldArrays<3>& field,
-                 const double* potential) {
-  OutputFile out(file, OutputFile::Existing::replace);
+void write_field(const std::string& file, OutputFile::Existing existing, const PointTable& points,
+                 const FieldArrays<3>& field, const double* potential) {
+  OutputFile out(file, existing);
   constexpr std::size_t block = 1 << 16;
   std::string text = "x,y,z,q,ex,ey,ez,potential\n";
   for (std::size_t i = 0; i < points.q.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/output_file.hpp"
 #include "forces/coulomb/coulomb.hpp"
 
 namespace treejet {
@@ -20,7 +21,7 @@ struct PointTable {
 PointTable read_points(const std::string& file);
 
 /// Writes points, field and potential; FileError if that fails.
-void write_field(const std::string& file, const PointTable& points, const FieldArrays<3>& field,
-                 const double* potential);
+void write_field(const std::string& file, OutputFile::Existing existing, const PointTable& points,
+                 const FieldArrays<3>& field, const double* potential);
 
 }  // namespace treejet

@@ -30,6 +30,7 @@ double root_mean_square(const FieldSet& field) {
 
 TEST_CASE("The field command reads columns in any order and writes the field beside the points") {
   FieldCommand command;
+  command.existing = OutputFile::Existing::replace;
   command.points = file("treejet-two.csv", "q,name,z,y,x\n2, a ,0,0,0\n6,b,0,0,2\n");
   command.out = file("treejet-two-field.csv", "");
   std::ostringstream report;
@@ -107,6 +108,7 @@ TEST_CASE("The field command states method, times and an error within the accura
   for (std::size_t i = 0; i < 3000; ++i)
     table << set.r[0][i] << ',' << set.r[1][i] << ',' << set.r[2][i] << ',' << set.q[i] << '\n';
   FieldCommand command;
+  command.existing = OutputFile::Existing::replace;
   command.points = file("treejet-jet.csv", table.str());
   command.request.method = CoulombMethod::tree;
   command.request.accuracy = 1e-4;

@@ -171,6 +171,10 @@ grep -q 'decimal' err || fail "the message does not tell of decimal commas: $(ca
 printf 'x,y,z,q\n0,0,0,1\n1,0,0,1\n' >points.csv
 expect 4 "a field over its own points" "$treejet" field points.csv --out points.csv
 is "points after a refused field" "$(wc -l <points.csv)" 3
+printf 'system 3\n' >some.dat
+expect 4 "a field over another file" "$treejet" field points.csv --out some.dat
+is "the file after a refused field" "$(cat some.dat)" "system 3"
+expect 0 "a field that may replace it" "$treejet" field points.csv --out some.dat --force
 
 expect 75 "a run with no time" long --out late --walltime 0.001
 expect 2 "resuming with another deck" "$treejet" run --resume late "$pvp" --set "viscosity 30"

@@ -92,7 +92,13 @@ def test_a_long_jet_is_thinned_below_five_megabytes(jet, tmp_path):
             group[f"{name}/value"] = np.tile(np.arange(points)[::-1], (frames, 1)) if name == "id" else rng.random(shape)
         del group["position/time"]
         group["position/time"] = np.arange(frames) * 1e-3
-    target = view(treejet.read(tmp_path / "long"))
+    trajectory = tmp_path / "long" / "traj.h5"
+    before = trajectory.read_bytes()
+    with pytest.raises(treejet.TreejetError, match="is there already and no page"):
+        view(treejet.read(tmp_path / "long"), trajectory)
+    assert trajectory.read_bytes() == before
+    view(treejet.read(tmp_path / "long"))
+    target = view(treejet.read(tmp_path / "long"))  # a page takes the place of a page
     data = data_of(target.read_text())
     assert target.stat().st_size < 5e6 and data["thinned"]["points"] == points
     assert len(data["count"]) == frames and min(data["count"]) >= 1000

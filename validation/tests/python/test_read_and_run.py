@@ -46,6 +46,7 @@ def test_observables_have_the_units_of_the_file(jet):
     assert table.units["curn"] == "statC/s" and table.units["n"] == "1"
     # 1 statC/s is 1/2.99792458 nA by definition of the SI
     assert np.allclose(table.to("curn", "nA"), table["curn"] / 2.99792458, rtol=1e-14)
+    assert treejet.convert(180, "degree", "rad") == pytest.approx(np.pi, rel=1e-15)
     assert np.array_equal(np.genfromtxt(jet.directory / "statdat.dat")[:, list(table).index("x")], table["x"])
 
 
