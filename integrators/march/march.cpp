@@ -17,8 +17,6 @@ namespace {
 /// An event this fraction of a step off the end of the step is met by dense output, whose error there carries
 /// the square of this fraction; farther off, an adaptive step is made anew to end on the event.
 constexpr double dense_fraction = 0.01;
-/// Events closer than this fraction of l_step to being due, when another has just happened, are due.
-constexpr double simultaneous = 1e-12;
 
 void halt_if(const std::optional<std::string>& state_check, double t) {
   if (state_check) throw NumericalError(fmt::format("at scaled time {}: {}", t, *state_check));
@@ -28,63 +26,6 @@ void halt_if(const std::optional<std::string>& state_check, double t) {
 template <int D>
 void March<D>::evaluate(SolutionPoint<D>& point, const State<D>* known) {
   effort_.evaluations += parts_.motion.on_accepted_step(jet_, point.t, point.y, known, point.slope);
-}
-
-/// By how much an event is late in a state that this step has led to.
-template <int D>
-double March<D>::overdue(Kind kind, const State<D>& y, double t) const {
-  if (kind == Kind::ending) return parts_.decomposition.greatest(parts_.endings.overdue(jet_.y, y));
-  const Eigen::Index last = y.rows() - 1;
-  if (kind == Kind::insertion) return parts_.nozzle.overdue(jet_, position<D>(y, last), t);
-  return parts_.collector.overdue(y(0, 0));
-}
-
-template <int D>
-double March<D>::overdue(Kind kind, const DenseOutput<D>& segment, double t) {
-  if (kind == Kind::ending) return overdue(kind, segment.at(t), t);
-  segment.at(t, kind == Kind::insertion ? segment.first().rows() - 1 : 0, one_);
-  return overdue(kind, one_, t);
-}
-
-template <int D>
-double March<D>::zero(Kind kind, const DenseOutput<D>& segment, double a, double b) {
-  double ga = overdue(kind, segment, a), gb = overdue(kind, segment, b);
-  if (ga >= 0) return a;
-  const double wide = 1e-6 * (b - a);
-  // regula falsi, Illinois variant
-  for (int i = 0; i < 60 && gb != 0 && b - a > 1e-15 * b; ++i) {
-    const double c = (a * gb - b * ga) / (gb - ga);
-    // the zero but for round-off; b may still be far away if the function is straight
-    if (!(c > a)) return b - a > wide ? a : b;
-    if (!(c < b)) break;
-    const double gc = overdue(kind, segment, c);
-    if (gc < 0) {
-      a = c, ga = gc;
-      gb /= 2;
-    } else {
-      b = c, gb = gc;
-      ga /= 2;
-    }
-  }
-  return b;
-}
-
-template <int D>
-std::optional<typename March<D>::Due> March<D>::first_event(const DenseOutput<D>& segment, double reach) {
-  std::optional<Due> first;
-  const auto look_for = [&](Kind kind) {
-    double end = segment.until;
-    if (overdue(kind, next_.y, next_.t) < 0) {
-      if (reach <= end || overdue(kind, segment, reach) < 0) return;
-      end = reach;
-    }
-    const double t = zero(kind, segment, segment.begin(), end);
-    if (!first || t < first->t) first = Due{t, kind};
-  };
-  if (parts_.nozzle.inserting()) look_for(Kind::insertion);
-  if (parts_.collector.removing()) look_for(Kind::removal);
-  if (parts_.endings.any()) look_for(Kind::ending);
-  return first;
 }
 
 template <int D>
@@ -185,7 +126,7 @@ void March<D>::start() {
   evaluate(jet_);
   halt_if(not_finite<D>(jet_.y, jet_.slope, parts_.decomposition.before(jet_)), jet_.t);
   // a nozzle that circles far off the axis begins beyond the place where it lets a bead go
-  if (parts_.nozzle.inserting() && overdue(Kind::insertion, jet_.y, jet_.t) > 0) {
+  if (parts_.nozzle.inserting() && events_.overdue(Kind::insertion, jet_) > 0) {
     settle({jet_.t, Kind::insertion});
     evaluate(jet_);
   }
@@ -250,13 +191,13 @@ void March<D>::take_over(Archive& state, const std::function<void()>& read_beads
 template <int D>
 std::optional<typename March<D>::Due> March<D>::located_event(double reach) {
   const double h = next_.t - jet_.t;
-  auto due = first_event(segment(), reach);
+  auto due = events_.first(jet_, segment(), reach);
   // one that is due at the very beginning ends the step there
   if (due && aims() && due->t > jet_.t && due->t < next_.t - dense_fraction * h) {
     ++effort_.retaken;
     step(due->t - jet_.t);
     evaluate(next_, parts_.stepper.slope_at_end());
-    due = first_event(segment(), next_.t + dense_fraction * h);
+    due = events_.first(jet_, segment(), next_.t + dense_fraction * h);
   }
   return due;
 }
@@ -282,7 +223,7 @@ void March<D>::commit(std::optional<Due> due) {
     jet_.y = segment.at(due->t);  // of which the jet is the beginning
     jet_.t = due->t;
     // time has no number so near to the end as the rate is high: who was due is there
-    hold_ended(due->kind == Kind::ending ? -overdue(Kind::ending, jet_.y, jet_.t) : 0);
+    hold_ended(due->kind == Kind::ending ? -events_.overdue(Kind::ending, jet_) : 0);
     settle(*due);
   } else {
     std::swap<SolutionPoint<D>>(jet_, next_);
@@ -309,12 +250,6 @@ bool March<D>::refine_if_due(std::int64_t released_before) {
   return true;
 }
 
-/// By how much an event may be due in the future to be due now.
-template <int D>
-double March<D>::slack() const {
-  return -simultaneous * parts_.nozzle.l_step();
-}
-
 /// To all who learn from events, when the jet is as watchers are to see it.
 template <int D>
 void March<D>::announce(EventKind kind) {
@@ -333,7 +268,7 @@ void March<D>::insertion() {
   ++effort_.released;
   announce(EventKind::release);
   // fed by flow, the next one is held at once
-  if (is_due(Kind::insertion)) placement();
+  if (events_.is_due(Kind::insertion, jet_)) placement();
 }
 
 template <int D>
@@ -359,20 +294,15 @@ void March<D>::removal() {
   ++effort_.removed;
 }
 
-template <int D>
-bool March<D>::is_due(Kind kind) const {
-  return overdue(kind, jet_.y, jet_.t) >= slack();
-}
-
 /// A column that has ended asks for nothing but a slope without it.
 template <int D>
 void March<D>::settle(const Due& due) {
   if (due.kind == Kind::insertion) insertion();
   if (due.kind == Kind::removal) removal();
   while (jet_.size() > 0) {
-    if (parts_.nozzle.inserting() && is_due(Kind::insertion)) {
+    if (parts_.nozzle.inserting() && events_.is_due(Kind::insertion, jet_)) {
       insertion();
-    } else if (parts_.collector.removing() && is_due(Kind::removal)) {
+    } else if (parts_.collector.removing() && events_.is_due(Kind::removal, jet_)) {
       removal();
     } else {
       break;
@@ -383,8 +313,8 @@ void March<D>::settle(const Due& due) {
 /// True if there was an event.
 template <int D>
 bool March<D>::look_at_step_end() {
-  const bool inserts = parts_.nozzle.inserting() && overdue(Kind::insertion, jet_.y, jet_.t) >= 0;
-  const bool removes = parts_.collector.removing() && overdue(Kind::removal, jet_.y, jet_.t) > 0;
+  const bool inserts = parts_.nozzle.inserting() && events_.overdue(Kind::insertion, jet_) >= 0;
+  const bool removes = parts_.collector.removing() && events_.overdue(Kind::removal, jet_) > 0;
   if (inserts) insertion();
   if (removes) removal();
   return inserts || removes;

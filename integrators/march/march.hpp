@@ -1,8 +1,8 @@
 #pragma once
 /// Marches a jet through time and its events.
 ///
-/// Insertion (place, release), removal and the end of a bead's column are zeros of functions of the state,
-/// located on the dense output (core/jet/dense_output.hpp). Order at one instant: insertion, then removal,
+/// Insertion (place, release), removal and the end of a bead's column are zeros of functions of the state
+/// (event_finder.hpp). Order at one instant: insertion, then removal,
 /// then whatever these have made due, until nothing is, then refinement. The last bead is never removed while
 /// beads are inserted; without insertion the march ends with an empty jet. With EventRule::step both are
 /// looked for at the ends of steps only, at most one of each a step: JETSPIN's way, first order in the step
@@ -23,6 +23,7 @@
 #include "core/jet/observer.hpp"
 #include "core/jet/spacing.hpp"
 #include "integrators/march/endings.hpp"
+#include "integrators/march/event_finder.hpp"
 #include "integrators/march/forecast.hpp"
 #include "integrators/march/step_control.hpp"
 #include "integrators/schemes/stepper.hpp"
@@ -61,8 +62,10 @@ class March {
   explicit March(const Parts& parts)
       : parts_(parts),
         jet_(parts.jet),
-        forecast_(parts.nozzle, parts.collector),
-        one_(1, parts.jet.y.cols()) {}
+        events_(parts.nozzle, parts.collector, parts_.endings, parts.decomposition),
+        forecast_(parts.nozzle, parts.collector) {}
+  March(const March&) = delete;
+  March& operator=(const March&) = delete;
 
   /// On to scaled time `end`, or until the jet is empty. False if told to pause before; the next call goes on
   /// from there.
@@ -79,11 +82,8 @@ class March {
   void take_over(Archive& state, const std::function<void()>& read_beads);
 
  private:
-  enum class Kind { insertion, removal, ending };
-  struct Due {
-    double t;
-    Kind kind;
-  };
+  using Kind = typename EventFinder<D>::Kind;
+  using Due = typename EventFinder<D>::Due;
 
   bool aims() const { return parts_.control.steps_to_events() && parts_.events == EventRule::located; }
   void start();
@@ -96,20 +96,14 @@ class March {
   [[noreturn]] void give_up() const;
   double attempt(double end);
   std::optional<Due> located_event(double reach);
-  double overdue(Kind kind, const State<D>& y, double t) const;
-  double overdue(Kind kind, const DenseOutput<D>& segment, double t);
-  std::optional<Due> first_event(const DenseOutput<D>& segment, double reach);
-  double zero(Kind kind, const DenseOutput<D>& segment, double a, double b);
   void commit(std::optional<Due> due);
   void announce(EventKind kind);
   void insertion();
   void placement();
-  double slack() const;
   void removal();
   void settle(const Due& due);
   bool look_at_step_end();
   bool hold_ended(double missing = 0);
-  bool is_due(Kind kind) const;
   bool refine_if_due(std::int64_t released_before);
 
   Parts parts_;
@@ -117,8 +111,8 @@ class March {
   SolutionPoint<D> next_;                       ///< the end of a step, until the jet goes there
   const FastRegion<D>* fast_region_ = nullptr;  ///< through the last step, null if all beads were integrated
   State<D> fast_next_;
+  EventFinder<D> events_;
   Forecast<D> forecast_;
-  State<D> one_;
   Effort effort_;
   double piece_begin_ = 0, piece_end_ = 0;  ///< within which the right-hand side is smooth
   bool under_way_ = false;                  ///< started, and not yet at the end

@@ -86,9 +86,17 @@ def failing_runs(whole):
                 check(same_files(out, whole), f"resumed after {what}: other files than of a run left alone")
 
 
+def frames_of(run):
+    """Those of its trajectory, as text."""
+    table = work / "frames.csv"
+    made, _ = call(["convert", run / "traj.h5", "--to", "csv", "--out", table, "--force"])
+    check(made.returncode == 0, f"convert {run}: {made.stderr}")
+    return table.read_text()
+
+
 def runs_that_fail_once(whole):
     """A write that fails is told even if the next ones go through; what was in the trajectory before stays in it."""
-    out, tried = work / "once", 40
+    out, tried, frames = work / "once", 40, frames_of(whole)
     made, count = call(run(out), "traj.h5.next")
     for n in sorted({1 + k * count // tried for k in range(tried)}):
         shutil.rmtree(out, ignore_errors=True)
@@ -98,6 +106,8 @@ def runs_that_fail_once(whole):
             check(same_files(out, whole), f"{what}: exit code 0, and other files than of a run left alone")
             continue
         expect_right_end(made, what, "traj.h5")
+        if (out / "traj.h5").exists():
+            check(frames.startswith(frames_of(out)), f"{what}: other frames than the first ones of a run left alone")
         if (out / "checkpoint").exists():
             made, _ = call(["run", "--resume", out, "--quiet"])
             check(made.returncode == 0, f"resuming after {what}: exit code {made.returncode}: {made.stderr}")
