@@ -235,6 +235,9 @@ is "lines of the CSV file" "$(wc -l <as-csv | tr -d ' ')" "$(($(grep -c '^[CX] '
 is "frames for ParaView" "$(ls as-vtp-frames | wc -l | tr -d ' ')" 6
 expect 2 "convert to an unknown format" "$treejet" convert h5/traj.h5 --to pdb
 expect 4 "convert of a foreign file" "$treejet" convert h5/traj.xyz --to csv
+size=$(wc -c <h5/traj.h5)
+expect 4 "convert over what it reads" "$treejet" convert h5/traj.h5 --to csv --out h5/traj.h5 --force
+is "the trajectory after that" "$(wc -c <h5/traj.h5)" "$size"
 expect 4 "convert of no file" "$treejet" convert nowhere.h5 --to csv
 expect 75 "a run stopped at once" hdf5 --out later --walltime 0.001
 for file in h5/traj.h5 h5/traj.xdmf h5/statdat.dat h5/traj.xyz h5/run.json as-xyz as-extxyz as-csv as-vtp as-vtp-frames/000003.vtp later/checkpoint; do
