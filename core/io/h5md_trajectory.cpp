@@ -142,7 +142,6 @@ void H5mdTrajectory::bring_twin_up_to_date() {
     if (error) throw FileError(fmt::format("{}: cannot be copied: {}", path_.string(), error.message()));
     behind_ = {};
     last_is_behind_ = false;
-    twin_ = true;
   }
   twin_ = false;  // until it is whole again: what a failure leaves half written is not gone on with
   H5md file(twin(), Hdf5File::Access::append);

@@ -119,58 +119,44 @@ void Hdf5File::link(const std::string& existing, const std::string& name) {
       "cannot be linked");
 }
 
-void Hdf5File::attribute(const std::string& object, const std::string& name, const std::string& value) {
+void Hdf5File::put_attribute(const std::string& object, const std::string& name, const Attribute& a) {
   const Checker check(path_, object);
-  const Handle type = text_type(std::max<std::size_t>(value.size(), 1)),
-               space(H5Screate(H5S_SCALAR), H5Sclose);
-  Handle made(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+  Handle made(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), a.on_disk, a.space, H5P_DEFAULT,
                                       H5P_DEFAULT, H5P_DEFAULT),
                     "attribute"),
               H5Aclose);
-  check(H5Awrite(made, type, value.c_str()), "attribute");
+  check(H5Awrite(made, a.in_memory, a.values), "attribute");
   check(made.close(), "attribute");
+}
+
+void Hdf5File::attribute(const std::string& object, const std::string& name, const std::string& value) {
+  const Handle type = text_type(std::max<std::size_t>(value.size(), 1)),
+               space(H5Screate(H5S_SCALAR), H5Sclose);
+  put_attribute(object, name, {type, space, type, value.c_str()});
 }
 
 void Hdf5File::attribute(const std::string& object, const std::string& name,
                          const std::vector<std::string>& values) {
-  const Checker check(path_, object);
   std::size_t longest = 1;
   for (const auto& v : values) longest = std::max(longest, v.size());
   std::string padded;
   for (const auto& v : values) padded += v + std::string(longest - v.size(), '\0');
   const hsize_t count = values.size();
   const Handle type = text_type(longest), space(H5Screate_simple(1, &count, nullptr), H5Sclose);
-  Handle made(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
-                                      H5P_DEFAULT, H5P_DEFAULT),
-                    "attribute"),
-              H5Aclose);
-  check(H5Awrite(made, type, padded.data()), "attribute");
-  check(made.close(), "attribute");
+  put_attribute(object, name, {type, space, type, padded.data()});
 }
 
 void Hdf5File::attribute(const std::string& object, const std::string& name, const std::vector<int>& values) {
-  const Checker check(path_, object);
   const hsize_t count = values.size();
   const Handle space(values.size() == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr),
                      H5Sclose);
-  Handle made(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), H5T_STD_I32LE, space, H5P_DEFAULT,
-                                      H5P_DEFAULT, H5P_DEFAULT),
-                    "attribute"),
-              H5Aclose);
-  check(H5Awrite(made, H5T_NATIVE_INT, values.data()), "attribute");
-  check(made.close(), "attribute");
+  put_attribute(object, name, {H5T_STD_I32LE, space, H5T_NATIVE_INT, values.data()});
 }
 
 void Hdf5File::word_attribute(const std::string& object, const std::string& name, const std::string& value) {
-  const Checker check(path_, object);
   const Handle type = text_type(H5T_VARIABLE, H5T_CSET_ASCII), space(H5Screate(H5S_SCALAR), H5Sclose);
-  Handle made(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
-                                      H5P_DEFAULT, H5P_DEFAULT),
-                    "attribute"),
-              H5Aclose);
   const char* const begin = value.c_str();
-  check(H5Awrite(made, type, &begin), "attribute");
-  check(made.close(), "attribute");
+  put_attribute(object, name, {type, space, type, &begin});
 }
 
 void Hdf5File::resize(const std::string& dataset, const Extent& extent) {

@@ -91,7 +91,13 @@ class Hdf5File {
     std::uint64_t chunk_bytes = 0;
   };
 
+  struct Attribute {
+    Id on_disk, space, in_memory;
+    const void* values;
+  };
+
   std::optional<HeaderPlace> find(const std::string& name) const;
+  void put_attribute(const std::string& object, const std::string& name, const Attribute& a);
   Id open(const std::string& dataset) const;
   const Stored& stored(const std::string& dataset, Id set) const;
   template <class T>

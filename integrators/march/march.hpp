@@ -2,9 +2,9 @@
 /// Marches a jet through time and its events.
 ///
 /// Insertion (place, release), removal and the end of a bead's column are zeros of functions of the state
-/// (event_finder.hpp). Order at one instant: insertion, then removal,
-/// then whatever these have made due, until nothing is, then refinement. The last bead is never removed while
-/// beads are inserted; without insertion the march ends with an empty jet. With EventRule::step both are
+/// (event_finder.hpp). Order at one instant: insertion, then removal, then whatever these have made due, until
+/// nothing is, then refinement. The last bead is never removed while beads are inserted; without insertion
+/// the march ends with an empty jet. With EventRule::step both are
 /// looked for at the ends of steps only, at most one of each a step: JETSPIN's way, first order in the step
 /// whatever the scheme. No step goes over the end of a piece of time within which the right-hand side is
 /// smooth.
