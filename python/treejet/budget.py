@@ -8,7 +8,8 @@ d_1 / (r^p - 1). A mean has a standard error, and so has a difference:
     noise      both below 2 of their standard errors: the error is at most the largest of the four
     falling    from level to level by r^p with p above the direction's least order: as above
     small      else, both below a twentieth of what is wanted: their sum, no order
-    falling    without an order, where signs differ or the finer difference is below its noise: the larger one
+    falling    without an order, where signs differ or the finer difference is below its noise: |d_2|, or its noise if
+           that is larger, and of finer levels |d_1| with it
     growing    else there is no limit in sight: not converged
     failed     a run ended early, or has no such mean
 

@@ -73,7 +73,7 @@ def converge(deck: Union[str, "os.PathLike[str]"], quantities: "Sequence[str]" =
     """
     if not 0 < accuracy < 1:
         raise InputError("expected a relative accuracy between 0 and 1, as 0.01")
-    given = {name.replace("_", " "): str(value) for name, value in overrides.items()}
+    given = {name.replace("_", " "): program.word(value) for name, value in overrides.items()}
     lines = itertools.chain.from_iterable(("--set", program.override(*item)) for item in given.items())
     values = json.loads(program.call("check", os.fspath(deck), "--json", *lines))["directives"]
     keys = _keys(values, quantities)

@@ -49,24 +49,29 @@ def ensembles(points: "list[Point]") -> "list[tuple[dict[str, str], dict[str, En
     members: "dict[tuple[tuple[str, str], ...], list[Point]]" = {}
     for point in points:
         if point.means:
-            members.setdefault(tuple((k, v) for k, v in point.values.items() if k != SEED), []).append(point)
+            members.setdefault(tuple(sorted((k, v) for k, v in point.values.items() if k != SEED)), []).append(point)
     return [(dict(setting), {key: ensemble_mean([point.means[key].mean for point in of_setting])
                              for key in of_setting[0].means if all(key in point.means for point in of_setting)})
             for setting, of_setting in members.items()]
+
+
+def named(points: "list[Point]") -> "list[str]":
+    """The directives that points set, each once: a point of a list may name others than its neighbour."""
+    return list(dict.fromkeys(name for point in points for name in point.values))
 
 
 def write_ensembles(path: Path, points: "list[Point]") -> None:
     """A row a setting: its values, the number of seeds, `key[unit]` with spread and standard error."""
     found = ensembles(points)
     units = {key: unit for point in points for key, unit in point.units.items()}
-    names = [name for name in points[0].values if name != SEED]
+    names = [name for name in named(points) if name != SEED]
     keys = list(found[0][1]) if found else []
     header = [*names, "seeds"]
     for key in keys:
         header += [f"{key}[{units[key]}]", f"spread of {key}", f"error of {key}"]
     rows = []
     for setting, means in found:
-        row: "list[object]" = [*setting.values(), max((m.seeds for m in means.values()), default=0)]
+        row: "list[object]" = [*(setting.get(name, "") for name in names), max((m.seeds for m in means.values()), default=0)]
         for key in keys:
             m = means.get(key)
             row += [repr(m.mean), repr(m.spread), repr(m.error)] if m else [math.nan] * 3

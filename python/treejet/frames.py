@@ -1,7 +1,7 @@
 """Frames of a trajectory, read when they are asked for.
 
 Points of a frame are the beads, oldest first, and then the nozzle. traj.h5 has everything; traj.xyz has positions
-only, with the time. Quantities are in CGS.
+only, with the time, and of a jet of more points than it has room for those nearest to the collector. Quantities are in CGS.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ COLUMNS = {"velocity": "cm/s", "stress": "g/(cm s^2)", "charge": "statC", "mass"
 
 @dataclass(frozen=True)
 class Frame:
-    """The jet at one instant; beads 0 to -2, oldest first, the nozzle last."""
+    """The jet at one instant; beads 0 to -2, oldest first, the nozzle last, unless the frame is cut off before it."""
 
     time: float  #: s
     position: np.ndarray  #: (points, 3), cm
@@ -32,6 +32,7 @@ class Frame:
     mass: Optional[np.ndarray] = None  #: g
     radius: Optional[np.ndarray] = None  #: cm
     added: dict[str, np.ndarray] = field(default_factory=dict)  #: columns that the scene adds, by name
+    cut_off: bool = False  #: the last point is a bead, as those nearer to the nozzle are left out
 
     def __len__(self) -> int:
         return len(self.position)
@@ -39,20 +40,20 @@ class Frame:
     @property
     def beads(self) -> int:
         """Points but the nozzle; a held bead (core/jet/nozzle.hpp) is no point yet."""
-        return len(self) - 1
+        return len(self) - (not self.cut_off)
 
     def elements(self) -> np.ndarray:
         """Lengths from each point to the next one towards the nozzle, cm."""
         return np.linalg.norm(np.diff(self.position, axis=0), axis=1)
 
     def path(self) -> np.ndarray:
-        """Length along the jet from the nozzle to each point, cm."""
+        """Length along the jet from the nozzle, or where the frame is cut off, to each point, cm."""
         return np.append(np.cumsum(self.elements()[::-1])[::-1], 0.0)
 
-    def counted_beads(self, element: float) -> int:
-        """Beads as the observable n counts them: with the one held between 1.5 and 2 elements from the nozzle."""
+    def counted_beads(self, held_beyond: float) -> int:
+        """Beads as the observable n counts them: with the one that is held (Deck.held_beyond), if the frame shows so much."""
         steps = self.elements()
-        held = len(steps) > 0 and np.isfinite(element) and steps[-1] >= 1.5 * element
+        held = len(steps) > 0 and not self.cut_off and steps[-1] >= held_beyond
         return self.beads + int(held)
 
 
@@ -92,11 +93,13 @@ class H5Frames(Sequence):
 
 
 class XyzFrames(Sequence):
-    """Frames of traj.xyz; the file is passed through once to find where they begin. One that is cut short is left out."""
+    """Frames of traj.xyz, whose lengths are `rescale` times those of the jet; the file is passed through once to find where they
+    begin. One that is cut short is left out.
+    """
 
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self._begin, self._points, times = [], [], []
+    def __init__(self, path: Path, rescale: float = 1.0) -> None:
+        self.path, self.rescale = path, rescale
+        self._begin, self._points, self._room, times = [], [], 0, []
         with open(path, "rb") as file:
             while count := file.readline():
                 comment = file.readline().decode(errors="replace")
@@ -109,6 +112,7 @@ class XyzFrames(Sequence):
                 lines = [file.readline() for _ in range(int(count))]
                 if not lines or not lines[-1].endswith(b"\n"):
                     break
+                self._room = len(lines)  # constant
                 self._begin.append(begin)
                 self._points.append(int(points[1]) if points else len(lines))
                 times.append(float(time[1]))
@@ -130,17 +134,19 @@ class XyzFrames(Sequence):
             position = np.full((1, 3), np.nan)
         if len(position) != len(lines) or not np.isfinite(position).all():
             raise FileError(f"{self.path}: frame {k}: expected lines `C x y z` of three finite numbers")
-        return Frame(time=float(self.times[k]), position=position)
+        # the nozzle is at x = 0, where no bead is
+        cut_off = self._points[k] == self._room and bool(position[-1, 0] != 0)
+        return Frame(time=float(self.times[k]), position=position / self.rescale, cut_off=cut_off)
 
 
 Frames = Union[H5Frames, XyzFrames]
 
 
 def thinned(count: int, most: int) -> np.ndarray:
-    """At most `most` of `count` frames or points, evenly spread, the first and the last among them.
+    """At most `most` of `count` frames or points, evenly spread, the first among them, and the last where there is more than one.
 
-    >>> thinned(5, 3), thinned(2, 3)
-    (array([0, 2, 4]), array([0, 1]))
+    >>> thinned(5, 3), thinned(2, 3), thinned(5, 1)
+    (array([0, 2, 4]), array([0, 1]), array([0]))
     """
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
 

@@ -28,7 +28,10 @@ MEANINGS = {
     "lp": "path of the jet", "rlp": "path over collector distance", "angl": "opening angle",
     "chn": "charge placed at the nozzle", "chc": "charge taken by the collector",
     "fcn": "current at the nozzle, smooth", "fcc": "current at the collector, smooth",
-    "ferr": "error of the Coulomb field", "ferrmax": "its largest",
+    "ferr": "error of the Coulomb field", "ferrmax": "its largest", "vol": "volume of the jet",
+    "volr": "part of it that has evaporated", "visc": "viscosity at the collector", "gc": "elastic modulus at the collector",
+    "evrc": "evaporated at the collector, a part", "emfc": "evaporated mass flux", "nref": "elements split",
+    "nmrg": "elements merged",
 }
 
 

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import math
 import shutil
 from collections.abc import Sequence
 from pathlib import Path
@@ -70,12 +69,8 @@ def jet_picture(run: Run, frame: Optional[int] = None) -> Figure:
     if not shown.position[:, 1:].any() and len(frames) > 1:
         return straight_picture([frames[int(i)] for i in thinned(len(frames), 400)])
     figure = plt.figure(figsize=(9.6, 5.6))
-    draw_jet(figure, shown, _element(run), np.abs(shown.position[:, 1:]).max(), shown.position[:, 0])
+    draw_jet(figure, shown, run.deck.held_beyond(), np.abs(shown.position[:, 1:]).max(), shown.position[:, 0])
     return figure
-
-
-def _element(run: Run) -> float:
-    return run.deck.element() if run.deck.get("inserting") == "yes" else math.inf
 
 
 def straight_picture(frames: Sequence[Frame]) -> Figure:
@@ -92,7 +87,7 @@ def straight_picture(frames: Sequence[Frame]) -> Figure:
     return figure
 
 
-def draw_jet(figure: Figure, frame: Frame, element: float, off_axis: float, along: np.ndarray) -> None:
+def draw_jet(figure: Figure, frame: Frame, held_beyond: float, off_axis: float, along: np.ndarray) -> None:
     """Left the jet hanging from its nozzle, to scale; right the same seen along the axis.
 
     `off_axis` and `along` are what has to fit in, so that all frames of a movie have one scale.
@@ -130,19 +125,22 @@ def draw_jet(figure: Figure, frame: Frame, element: float, off_axis: float, alon
     box = plane.get_position()
     bar = figure.colorbar(jet, cax=figure.add_axes([0.91, box.y0 + 0.1 * box.height, 0.014, 0.8 * box.height]))
     bar.set_label("length along the jet from the nozzle (cm)")
-    figure.suptitle(title(frame, element), y=0.97)
+    figure.suptitle(title(frame, held_beyond), y=0.97)
 
 
-def title(frame: Frame, element: float) -> str:
+def title(frame: Frame, held_beyond: float) -> str:
     """Time, beads as the observable n counts them, and length.
 
-    >>> title(Frame(0.2, np.array([[2.0, 0, 0], [1.0, 0, 0], [0, 0, 0]])), element=0.6)
+    >>> points = np.array([[2.0, 0, 0], [1.0, 0, 0], [0, 0, 0]])
+    >>> title(Frame(0.2, points), held_beyond=0.9)
     't = 200 ms, 3 beads, 2 cm of jet'
+    >>> title(Frame(0.2, points[:2], cut_off=True), held_beyond=0.9)
+    't = 200 ms, the 2 beads nearest to the collector, 1 cm of jet'
     """
     unit = units.readable("s", frame.time)
-    beads = frame.counted_beads(element)
-    return (f"t = {units.convert(frame.time, 's', unit):.4g} {units.printed(unit)}, "
-            f"{beads} bead{'s' * (beads != 1)}, {frame.path()[0]:.3g} cm of jet")
+    beads = frame.counted_beads(held_beyond)
+    which = f"the {beads} beads nearest to the collector" if frame.cut_off else f"{beads} bead{'s' * (beads != 1)}"
+    return f"t = {units.convert(frame.time, 's', unit):.4g} {units.printed(unit)}, {which}, {frame.path()[0]:.3g} cm of jet"
 
 
 def history_picture(table: Observables) -> Figure:
@@ -197,7 +195,7 @@ def movie(run: Run, out: Optional[Path] = None, most_frames: int = 240, rate: in
         with writer.saving(figure, str(target), dpi=100):
             for k in shown:
                 figure.clear()
-                draw_jet(figure, frames[int(k)], _element(run), off_axis, along)
+                draw_jet(figure, frames[int(k)], run.deck.held_beyond(), off_axis, along)
                 writer.grab_frame()
     except OSError as problem:
         raise FileError(f"{target}: {problem}") from None

@@ -49,8 +49,12 @@ def override(name: str, value: object) -> str:
     >>> override("external_potential", "6 kV"), override("gravity", True), override("viscosity", 20.0)
     ('external potential 6 kV', 'gravity yes', 'viscosity 20.0')
     """
-    word = {True: "yes", False: "no"}[value] if isinstance(value, bool) else str(value)
-    return f"{name.replace('_', ' ')} {word}"
+    return f"{name.replace('_', ' ')} {word(value)}"
+
+
+def word(value: object) -> str:
+    """As a deck has it."""
+    return {True: "yes", False: "no"}[value] if isinstance(value, bool) else str(value)
 
 
 def run_arguments(deck: str, out: str, overrides: "list[str]", threads: Optional[int], force: bool) -> "list[str]":

@@ -45,7 +45,7 @@ class Run:
         if (self.directory / "traj.h5").exists():
             return H5Frames(self.directory / "traj.h5")
         if (self.directory / "traj.xyz").exists():
-            return XyzFrames(self.directory / "traj.xyz")
+            return XyzFrames(self.directory / "traj.xyz", self.deck.number("print xyz rescale", "1", 1.0))
         raise FileError(f"{self.directory}: holds no trajectory; let the deck say `print hdf5 f` with an interval in s")
 
     @cached_property

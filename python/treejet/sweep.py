@@ -31,7 +31,7 @@ from typing import Callable, Optional, Union
 import numpy as np
 
 from . import program, units
-from .ensemble import SEED, write_ensembles
+from .ensemble import SEED, named, write_ensembles
 from .errors import FileError, InputError, TreejetError
 from .means import SteadyMean, steady_means
 from .read import Run, read
@@ -86,9 +86,13 @@ def from_csv(path: Path) -> "list[dict[str, str]]":
     """Points from a table with a header of directives, e.g. `external potential,viscosity`."""
     try:
         with open(path, newline="", encoding="utf-8") as file:
-            rows = [{(k or "").strip(): (v or "").strip() for k, v in row.items()} for row in csv.DictReader(file)]
+            found = list(csv.DictReader(file, restkey=""))
     except OSError as problem:
         raise FileError(f"{path}: {problem.strerror}") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{path}: is no text in UTF-8") from None
+    # a row longer than the header has a list under no name
+    rows = [{(k or "").strip(): v.strip() if isinstance(v, str) else "" for k, v in row.items()} for row in found]
     if not rows or any("" in row or "" in row.values() for row in rows):
         raise InputError(f"{path}: expected a header of directives and rows of as many values")
     return rows
@@ -97,11 +101,11 @@ def from_csv(path: Path) -> "list[dict[str, str]]":
 def grid(vary: Mapping[str, Sequence[object]]) -> "list[dict[str, str]]":
     """All combinations, the last directive fastest.
 
-    >>> grid({"viscosity": [10, 20], "gravity": ["yes"]})
+    >>> grid({"viscosity": [10, 20], "gravity": [True]})
     [{'viscosity': '10', 'gravity': 'yes'}, {'viscosity': '20', 'gravity': 'yes'}]
     """
     names = [name.replace("_", " ") for name in vary]
-    return [dict(zip(names, map(str, values))) for values in itertools.product(*vary.values())]
+    return [dict(zip(names, map(program.word, values))) for values in itertools.product(*vary.values())]
 
 
 class Stop:
@@ -144,7 +148,7 @@ def sweep(deck: Union[str, "os.PathLike[str]"],
     """
     if jobs < 1:
         raise InputError("a sweep needs 1 job at least")
-    settings = grid(vary) if isinstance(vary, Mapping) else [{k: str(v) for k, v in row.items()} for row in vary]
+    settings = grid(vary) if isinstance(vary, Mapping) else [{k: program.word(v) for k, v in row.items()} for row in vary]
     place, source = Path(out), Path(deck)
     text = _deck_text(source)
     digits = max(3, len(str(len(settings))))
@@ -169,7 +173,7 @@ def sweep(deck: Union[str, "os.PathLike[str]"],
             raise
     if only is None:
         write_table(place / "sweep.csv", points)
-        if points and SEED in points[0].values:
+        if SEED in named(points):
             write_ensembles(place / "seeds.csv", points)
     return points
 
@@ -240,13 +244,13 @@ def _is_finished(point: Point) -> bool:
 def write_table(path: Path, points: "list[Point]") -> None:
     """A row a point: values, exit code, `key[unit]` with its standard error and whether it is steady, message."""
     unit_of = {key: point.units[key] for point in points for key in point.means}
-    names = list(points[0].values) if points else []
+    names = named(points)
     header = ["point", *names, "exit code"]
     for key, unit in unit_of.items():
         header += [f"{key}[{unit}]", f"error of {key}", f"{key} is steady"]
     rows = []
     for point in points:
-        row = [point.directory.name, *point.values.values(), point.exit_code]
+        row = [point.directory.name, *(point.values.get(name, "") for name in names), point.exit_code]
         for key in unit_of:
             m = point.means.get(key)
             row += [repr(m.mean), repr(m.error), "yes" if m.steady else "no"] if m else [math.nan, math.nan, ""]

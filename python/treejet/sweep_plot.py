@@ -13,6 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from . import units
+from .ensemble import named
 from .errors import TreejetError
 from .sweep import Point
 
@@ -21,14 +22,15 @@ INKS = ("#31688e", "#d1495b", "#35b779", "#b8860b", "#6f4e9c", "#3c6e47", "#8c56
 
 
 def abscissa(points: "list[Point]", name: str) -> "tuple[list[float], str]":
-    """Values of a directive as numbers in its own unit; words, and mixed units, count from 0."""
+    """Values of a directive as numbers in its own unit; words, mixed units and a deck's own value count from 0."""
+    given = [point.values.get(name, "as in the deck") for point in points]
     try:
-        split = [units.split(point.values[name]) for point in points]
+        split = [units.split(value) for value in given]
         unit = split[0][1]
         return [value if its == unit else float(units.convert(value, its, unit)) for value, its in split], unit
     except TreejetError:
-        words = sorted({point.values[name] for point in points})
-        return [float(words.index(point.values[name])) for point in points], ", ".join(words)
+        words = sorted(set(given))
+        return [float(words.index(value)) for value in given], ", ".join(words)
 
 
 def draw(points: "list[Point]", target: Path) -> Optional[Path]:
@@ -37,7 +39,7 @@ def draw(points: "list[Point]", target: Path) -> Optional[Path]:
     keys = [key for key in (done[0].means if done else ()) if any(math.isfinite(p.means[key].mean) for p in done)]
     if not keys:
         return None
-    name, *others = list(points[0].values)
+    name, *others = named(points)
     x, unit = abscissa(done, name)
     keys = keys[:MOST_PANELS]
     columns = min(3, len(keys))
@@ -46,7 +48,7 @@ def draw(points: "list[Point]", target: Path) -> Optional[Path]:
                                 constrained_layout=True)
     lines: "dict[str, list[int]]" = {}
     for k, point in enumerate(done):
-        lines.setdefault(", ".join(f"{other} {point.values[other]}" for other in others), []).append(k)
+        lines.setdefault(", ".join(f"{other} {point.values[other]}" for other in others if other in point.values), []).append(k)
     for panel, key in zip(axes.flat, keys):
         means = [point.means[key] for point in done]
         largest = max((abs(m.mean) for m in means if math.isfinite(m.mean)), default=1.0)

@@ -82,14 +82,14 @@ def contents(run: Run, most_frames: int) -> "dict[str, Any]":
     longest = max(len(frames[int(k)]) for k in thinned(len(frames), 50))
     most_frames = max(1, min(most_frames, len(frames), BUDGET // (bytes_a_point * min(longest, LEAST_POINTS))))
     most_points = max(2, BUDGET // (bytes_a_point * most_frames))
-    element = run.deck.element() if run.deck.get("inserting") == "yes" else math.inf
+    held_beyond = run.deck.held_beyond()
     positions, columns, about = [], {name: [] for name in SCALARS if rich}, []
     for f in each(frames, most_frames):
         kept = thinned(len(f), most_points)
         positions.append(f.position[kept])
         for name, column in columns.items():
             column.append(SCALARS[name][1](f)[kept])
-        about.append((f.time, len(kept), f.counted_beads(element), float(f.path()[0])))
+        about.append((f.time, len(kept), f.counted_beads(held_beyond), float(f.path()[0])))
     points = np.concatenate(positions)
     low, high = points.min(axis=0), points.max(axis=0)
     time, count, beads, path = zip(*about)

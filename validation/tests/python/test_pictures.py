@@ -30,8 +30,8 @@ def test_a_run_is_drawn_from_either_trajectory(jet, tmp_path):
 
 
 def test_picture_page_and_table_tell_the_same_number_of_beads(jet):
-    element, n = jet.deck.element(), jet.observables["n"][-1]
-    assert f" {n:.0f} beads" in title(jet.frames[-1], element)
+    held_beyond, n = jet.deck.held_beyond(), jet.observables["n"][-1]
+    assert f" {n:.0f} beads" in title(jet.frames[-1], held_beyond)
     assert data_of(page(jet))["beads"][-1] == n
 
 

@@ -1,5 +1,6 @@
 """Reading what the program writes, running it, its errors."""
 
+import json
 import os
 import subprocess
 
@@ -32,11 +33,11 @@ def test_both_trajectories_show_the_same_jet(jet):
 
 def test_beads_are_counted_as_the_table_counts_them(jet):
     t, n = jet.observables["t"], jet.observables["n"]
-    element = jet.deck.element()
+    held_beyond = jet.deck.held_beyond()
     held = 0
     for frame in jet.frames:
         row = int(np.abs(t - frame.time).argmin())
-        assert frame.counted_beads(element) == n[row]
+        assert frame.counted_beads(held_beyond) == n[row]
         held += frame.beads != n[row]
     assert 0 < held < len(jet.frames)
 
@@ -150,3 +151,42 @@ def test_a_run_begins_with_the_jet_of_another_and_is_extended(deck, jet, tmp_pat
     assert longer.observables["t"][-1] == pytest.approx(6e-3) and longer.finished
     with pytest.raises(treejet.TreejetError, match="no frame at t"):
         treejet.run(deck, tmp_path / "wrong", begin_with=f"{jet.directory}@4.1ms")
+
+
+@pytest.mark.parametrize("line, unit", [
+    ("collector distance 0.3 dm", "cm"), ("collector distance = 3000 µm", "cm"), ("collector distance 200.d", "cm"),
+    ("elastic modulus 0.5 bar", "g/(cm s^2)"), ("elastic modulus 5 N/cm²", "g/(cm s^2)"), ("viscosity 20 poise", "g/(cm s)"),
+    ("viscosity 2000 cP", "g/(cm s)"), ("perturb freq 1.5 kHz", "rad/s"), ("perturb freq 3000 rad/s", "rad/s"),
+    ("density charge 44000 statC cm**-3", "statC/cm^3"), ("external potential 9 kV", "statV"),
+])
+def test_quantities_of_a_deck_are_those_that_the_program_reads(deck, line, unit):
+    described = json.loads(treejet.program.call("check", str(deck), "--json", "--set", line))["directives"]
+    name = max((name for name in described if line.startswith(name)), key=len)
+    read = treejet.Deck(deck.read_text(), [line]).number(name, unit)
+    assert read == pytest.approx(float(described[name].split()[0].replace("d", "e")), rel=1e-14)
+
+
+def test_bare_numbers_of_real_units_are_volts_and_coulombs_a_litre():
+    deck = treejet.Deck("units real\nexternal potential 9000\ndensity charge 1\nviscosity 20\nfinish")
+    assert deck.number("external potential", "kV") == pytest.approx(9, rel=1e-14)
+    assert deck.number("density charge", "C/m3") == pytest.approx(1000, rel=1e-14) and deck.number("viscosity", "P") == 20
+
+
+def test_points_that_are_set_take_the_place_of_a_resolution():
+    text = "initial length 0.02\nresolution 0.01\nfinish"
+    assert treejet.Deck(text).element() == 0.01 and treejet.Deck(text, ["points 4"]).element() == 0.005
+
+
+def test_a_rescaled_trajectory_is_read_in_centimetres_and_one_that_is_cut_off_says_so(deck, jet, tmp_path):
+    few = treejet.run(deck, tmp_path / "few", threads=1, print_xyz_rescale=10, print_xyz_maxnum=4, print_xyz="8e-4",
+                      final_time="8e-3", collector_distance="0.3")
+    shown, whole = few.frames[-1], jet.frames[-1]
+    assert shown.cut_off and shown.beads == shown.counted_beads(few.deck.held_beyond()) == 4
+    assert np.allclose(shown.position, whole.position[:4], rtol=1e-8, atol=1e-12)
+
+
+def test_with_a_given_flow_a_bead_is_always_held(deck, tmp_path):
+    fed = treejet.run(deck, tmp_path / "fed", threads=1, model="slender", flow_rate="0.01736", final_time="2e-3", inserting="YES",
+                      print_hdf5="1e-4", print_time="1e-4", printstat_list="t n", initial_length="0.02")
+    n = fed.observables["n"]
+    assert [frame.counted_beads(fed.deck.held_beyond()) for frame in fed.frames] == n.tolist() and n[-1] > 2

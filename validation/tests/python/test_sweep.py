@@ -10,6 +10,7 @@ import time
 
 import pytest
 import treejet
+from treejet import sweep_plot
 from treejet.sweep import from_csv, varied
 
 
@@ -147,3 +148,20 @@ def test_a_signal_ahead_of_the_end_stops_the_runs_with_checkpoints(quick, tmp_pa
     sweep.send_signal(signal.SIGUSR1)
     assert sweep.wait() == 75
     assert all((out / k / "checkpoint").exists() for k in ("001", "002"))
+
+
+def test_points_may_name_their_directives_in_any_order_and_not_all_the_same(quick, tmp_path):
+    points = treejet.sweep(quick, [{"viscosity": "20", "external potential": "30"}, {"external potential": 31, "viscosity": 21},
+                                   {"gravity": False}], tmp_path / "listed")
+    rows = table(tmp_path / "listed")
+    assert [(row["viscosity"], row["external potential"], row["gravity"]) for row in rows] == \
+        [("20", "30", ""), ("21", "31", ""), ("", "", "no")]
+    assert all(row["exit code"] == "0" for row in rows)
+    assert sweep_plot.draw(points, tmp_path / "listed.png").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize("text", [b"viscosity\n20,30\n", b"viscosity,gravity\n20\n", b"viscosit\xe9\n20\n"])
+def test_a_list_whose_rows_do_not_fit_its_header_or_that_is_no_text_is_refused(tmp_path, text):
+    (tmp_path / "list.csv").write_bytes(text)
+    with pytest.raises(treejet.InputError):
+        from_csv(tmp_path / "list.csv")
