@@ -77,23 +77,33 @@ std::int64_t Cells::bytes() const {
                                    grafted_points_.capacity() * sizeof(Rows));
 }
 
+CellRange Cells::below(int above, int k, int l) const {
+  const CellRange all = level(l);
+  const int down = l - above;
+  return {all.first + (k << down), std::min(all.last, all.first + ((k + 1) << down))};
+}
+
 void Cells::enclose(const CellPoints& points, Reach reach, Threads threads) {
-  for (int l = levels() - 1; l >= 0; --l) {
-    const CellRange cells = level(l);
-    for_each_block(threads, {0, cells.last - cells.first}, 512, [&](Rows rows) {
-      for (int k = rows.first; k < rows.last; ++k) {
-        if (l == levels() - 1)
-          weigh(points, k);
-        else
-          weigh_children(l, k);
-        measure(points, reach, l, k);
-        const std::size_t id = index(level(l).first + k);
-        const double r = radius_[id], Q = weight_[id];
-        spread_[id] = r > 0 && Q > 0 ? std::log2(4 * r * r / Q) : widest_spread;
-      }
-    });
-  }
+  const int cut = level_of_subtrees();
+  for_each_task(threads, level(cut).last - level(cut).first, [&](int k) {
+    for (int l = levels() - 1; l >= cut; --l) enclose(points, reach, l, below(cut, k, l));
+  });
+  for (int l = cut - 1; l >= 0; --l) enclose(points, reach, l, level(l));
   critical_ = radius_;
+}
+
+void Cells::enclose(const CellPoints& points, Reach reach, int l, CellRange cells) {
+  for (int cell = cells.first; cell < cells.last; ++cell) {
+    const int k = cell - level(l).first;
+    if (l == levels() - 1)
+      weigh(points, k);
+    else
+      weigh_children(l, k);
+    measure(points, reach, l, k);
+    const std::size_t id = index(cell);
+    const double r = radius_[id], Q = weight_[id];
+    spread_[id] = r > 0 && Q > 0 ? std::log2(4 * r * r / Q) : widest_spread;
+  }
 }
 
 Cells::Spread Cells::spread() const {

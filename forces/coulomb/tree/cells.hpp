@@ -25,6 +25,7 @@
 /// Source: Dehnen, J. Comput. Phys. 179 (2002) 27, where for the same reason the opening depends on the mass
 /// of a cell.
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -47,6 +48,10 @@ class Cells {
   /// The cells of a level.
   CellRange level(int l) const { return {first_[index(l)], first_[index(l + 1)]}; }
   int leaves() const { return size() - first_[index(levels() - 1)]; }
+  /// The cells of level l that are below cell k of a level above.
+  CellRange below(int above, int k, int l) const;
+  /// The level of the roots of trees of 64 leaves: enough to fill registers, few enough for a core's caches.
+  int level_of_subtrees() const { return std::max(0, levels() - 1 - 6); }
   /// The points of leaf k.
   Rows leaf_points(int k) const;
   /// The points of a cell that is a leaf, own or grafted; none of a grafted cell that shows no points.
@@ -92,6 +97,7 @@ class Cells {
   std::int64_t bytes() const;  ///< held
 
  private:
+  void enclose(const CellPoints& points, Reach reach, int level, CellRange cells);
   void weigh(const CellPoints& points, int leaf);
   void weigh_children(int level, int cell);
   void resize(std::size_t cells);

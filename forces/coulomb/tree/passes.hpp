@@ -20,10 +20,10 @@ CellPoints leaf_points(const Cells& cells, const CellPoints& points, int leaf);
 void move_up(const WideKernels& kernels, const Cells& cells, const Expansions& expansions,
              const CellPoints& points, Threads threads);
 
-/// L2L: adds to the local series of each wanted cell that of its parent. A cell is wanted if one of its
-/// children is.
+/// L2L, L2P: adds to the local series of each wanted cell that of its parent, and the field of those of the
+/// leaves to the sums at their points. A cell is wanted if one of its children is.
 void move_down(const WideKernels& kernels, const Cells& cells, const Expansions& expansions,
-               std::span<const char> wanted, Threads threads);
+               std::span<const char> wanted, const CellPoints& points, double* const* sums, Threads threads);
 
 /// For each cell, whether one of these leaves is below it.
 void mark_above(const Cells& cells, std::span<const int> leaves, std::vector<char>& wanted);

@@ -44,9 +44,10 @@ inline std::vector<CellRange> near_ranges(const Cells& cells, std::span<const in
   return ranges;
 }
 
-/// Cells above the first level with so many are walked by one thread, the subtrees below by all.
-inline int level_of_subtrees(const Cells& cells) {
-  constexpr int subtrees = 64;
+/// Cells above the first level with so many are walked by one thread, the subtrees below, which take unlike
+/// times, by all.
+inline int level_of_walks(const Cells& cells, Threads threads) {
+  const int subtrees = std::max(64, 16 * threads.count);
   int level = 0;
   while (level < cells.levels() - 1 && cells.level(level).last - cells.level(level).first < subtrees) ++level;
   return level;

@@ -202,11 +202,11 @@ void TreeField::act_near(int leaf, std::span<const int> near, bool potential) {
 }
 
 /// What is done above the cut, and the subtrees below it, for those to whom `wanted_` leads.
-std::vector<TreeField::Task> TreeField::tasks() const {
+std::vector<TreeField::Task> TreeField::tasks(Threads threads) const {
   std::vector<Task> tasks;
   Traversal(tree_.cells, shape_.opening)
       .walk(
-          0, 0, tree_.cells.roots(), level_of_subtrees(tree_.cells),
+          0, 0, tree_.cells.roots(), level_of_walks(tree_.cells, threads),
           [this](int cell) { return wanted_[index(cell)]; },
           [&](int cell, std::span<const int> far) {
             tasks.push_back({0, cell, {far.begin(), far.end()}, false});
@@ -222,7 +222,7 @@ Interactions TreeField::local_expansions(std::span<const int> leaves, bool poten
   const Cells& cells = tree_.cells;
   const Expansions expansions = tree_.expansions(potential);
   mark_above(cells, leaves, wanted_);
-  const std::vector<Task> tasks = this->tasks();
+  const std::vector<Task> tasks = this->tasks(threads);
   std::vector<Interactions> done(tasks.size());
   for_each_task(threads, static_cast<int>(tasks.size()), [&](int t) {
     const Task& task = tasks[index(t)];
@@ -243,13 +243,7 @@ Interactions TreeField::local_expansions(std::span<const int> leaves, bool poten
     else
       far(task.cell, task.sources);
   });
-  move_down(*kernels_, cells, expansions, wanted_, threads);
-  const int bottom = cells.level(cells.levels() - 1).first;
-  for_each_block(threads, {0, static_cast<int>(leaves.size())}, leaves_a_task, [&](Rows some) {
-    for (int n = some.first; n < some.last; ++n)
-      kernels_->l2p(expansions, bottom + leaves[index(n)], tree_.leaf(leaves[index(n)]),
-                    tree_.points.sums().data());
-  });
+  move_down(*kernels_, cells, expansions, wanted_, tree_.all_points(), tree_.points.sums().data(), threads);
   return total(done);
 }
 

@@ -89,7 +89,7 @@ class TreeField {
   void gather(const std::vector<int>& leaves, std::size_t sums);
   Interactions local_expansions(std::span<const int> leaves, bool potential, Threads threads);
   Interactions barnes_hut(std::span<const int> leaves, bool potential, Threads threads);
-  std::vector<Task> tasks() const;
+  std::vector<Task> tasks(Threads threads) const;
   void act_near(int leaf, std::span<const int> near, bool potential);
 
   Isa isa_;
