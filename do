@@ -117,7 +117,7 @@ case ${1-} in
     ;;
   functions) ;; # .ci/run takes what stands above
   *)
-    sed -n '2,4s/^# //p' "$0"
+    sed -n '2,4s/^# //p' "$(basename "$0")"
     exit 2
     ;;
 esac

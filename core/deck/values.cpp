@@ -8,10 +8,10 @@
 
 #include "core/base/lines.hpp"
 #include "core/base/number.hpp"
+#include "core/deck/choices.hpp"
 #include "core/deck/directives.hpp"
 #include "core/deck/observable_keys.hpp"
 #include "core/deck/units.hpp"
-#include "core/jet/schemes.hpp"
 
 namespace treejet {
 
@@ -20,124 +20,9 @@ namespace {
 using Arguments = std::span<const std::string>;
 
 template <class T>
-struct Word {
-  std::string_view word;
-  T value;
-};
-
-// The first word of a value is the one it is printed with.
-constexpr Word<bool> yes_no[] = {{"yes", true}, {"no", false}};
-constexpr Word<EventRule> event_rules[] = {{"located", EventRule::located}, {"step", EventRule::step}};
-constexpr Word<Multirate> multirates[] = {{"auto", Multirate::automatic}, {"no", Multirate::no}};
-constexpr Word<Units> unit_systems[] = {{"cgs", Units::cgs}, {"real", Units::real}};
-constexpr Word<CoulombSum> coulomb_sums[] = {
-    {"direct", CoulombSum::direct}, {"tree", CoulombSum::tree}, {"auto", CoulombSum::automatic}};
-constexpr Word<TreeOrder> tree_orders[] = {
-    {"auto", TreeOrder::automatic}, {"chain", TreeOrder::chain}, {"space", TreeOrder::space}};
-constexpr Word<ExpansionKind> expansions[] = {{"local", ExpansionKind::local}, {"none", ExpansionKind::none}};
-constexpr Word<ParallelData> parallel_data[] = {{"replicated", ParallelData::replicated},
-                                                {"distributed", ParallelData::distributed},
-                                                {"auto", ParallelData::automatic}};
-constexpr Word<SelfField> self_fields[] = {{"point", SelfField::point}, {"slender", SelfField::slender}};
-constexpr Word<CoulombLaw> coulomb_laws[] = {{"point", CoulombLaw::point},
-                                             {"softened", CoulombLaw::softened}};
-constexpr Word<DragModel> drag_models[] = {
-    {"jetspin", DragModel::jetspin}, {"jetspin-1.20", DragModel::jetspin_1_20}, {"full", DragModel::full}};
-constexpr Word<StressLawKind> stress_laws[] = {{"maxwell", StressLawKind::maxwell},
-                                               {"kelvin-voigt", StressLawKind::kelvin_voigt},
-                                               {"oldroyd-b", StressLawKind::oldroyd_b},
-                                               {"giesekus", StressLawKind::giesekus},
-                                               {"fene-p", StressLawKind::fene_p},
-                                               {"power-law", StressLawKind::power_law},
-                                               {"herschel-bulkley", StressLawKind::herschel_bulkley}};
-constexpr Word<EvaporationModel> evaporation_models[] = {{"vapour", EvaporationModel::vapour},
-                                                         {"jetspin", EvaporationModel::jetspin}};
-constexpr Word<SolventName> solvents[] = {{"water", SolventName::water},
-                                          {"ethanol", SolventName::ethanol},
-                                          {"dmf", SolventName::dmf},
-                                          {"chloroform", SolventName::chloroform},
-                                          {"acetone", SolventName::acetone}};
-constexpr Word<Feed> feeds[] = {{"pull", Feed::pull}, {"flow", Feed::flow}};
-constexpr Word<Model> models[] = {{"paper", Model::paper}, {"slender", Model::slender}};
-// JETSPIN's numbers behind its four
-constexpr Word<Wave> waves[] = {{"constant", Wave::constant}, {"sine", Wave::sine},
-                                {"square", Wave::square},     {"rc", Wave::rc},
-                                {"restart", Wave::restart},   {"ramp", Wave::ramp},
-                                {"table", Wave::table},       {"rotating", Wave::rotating},
-                                {"0", Wave::constant},        {"1", Wave::square},
-                                {"2", Wave::restart},         {"3", Wave::rotating}};
-constexpr Word<SurfaceModel> surface_models[] = {{"paper", SurfaceModel::paper},
-                                                 {"energy", SurfaceModel::energy}};
-
-std::span<const Word<bool>> words_of(bool) {
-  return yes_no;
-}
-std::span<const Word<Scheme>> words_of(Scheme) {
-  static const std::vector<Word<Scheme>> words = [] {
-    std::vector<Word<Scheme>> all;
-    for (const auto& s : schemes) all.push_back({s.word, s.scheme});
-    for (const auto& s : schemes)
-      if (!s.number.empty()) all.push_back({s.number, s.scheme});
-    return all;
-  }();
-  return words;
-}
-std::span<const Word<EventRule>> words_of(EventRule) {
-  return event_rules;
-}
-std::span<const Word<Multirate>> words_of(Multirate) {
-  return multirates;
-}
-std::span<const Word<Units>> words_of(Units) {
-  return unit_systems;
-}
-std::span<const Word<CoulombSum>> words_of(CoulombSum) {
-  return coulomb_sums;
-}
-std::span<const Word<TreeOrder>> words_of(TreeOrder) {
-  return tree_orders;
-}
-std::span<const Word<ExpansionKind>> words_of(ExpansionKind) {
-  return expansions;
-}
-std::span<const Word<ParallelData>> words_of(ParallelData) {
-  return parallel_data;
-}
-std::span<const Word<SelfField>> words_of(SelfField) {
-  return self_fields;
-}
-std::span<const Word<Wave>> words_of(Wave) {
-  return waves;
-}
-std::span<const Word<CoulombLaw>> words_of(CoulombLaw) {
-  return coulomb_laws;
-}
-std::span<const Word<DragModel>> words_of(DragModel) {
-  return drag_models;
-}
-std::span<const Word<SurfaceModel>> words_of(SurfaceModel) {
-  return surface_models;
-}
-std::span<const Word<StressLawKind>> words_of(StressLawKind) {
-  return stress_laws;
-}
-std::span<const Word<EvaporationModel>> words_of(EvaporationModel) {
-  return evaporation_models;
-}
-std::span<const Word<SolventName>> words_of(SolventName) {
-  return solvents;
-}
-std::span<const Word<Feed>> words_of(Feed) {
-  return feeds;
-}
-std::span<const Word<Model>> words_of(Model) {
-  return models;
-}
-
-template <class T>
-std::vector<std::string_view> known_words(T choice) {
+std::vector<std::string_view> known_words() {
   std::vector<std::string_view> known;
-  for (const auto& w : words_of(choice)) known.push_back(w.word);
+  for (const auto& w : choices<T>) known.push_back(w.word);
   return known;
 }
 
@@ -177,8 +62,8 @@ std::string kind(const std::vector<std::string>&) {
   return "keys";
 }
 template <class T>
-std::string kind(T choice) {
-  return fmt::format("{}", fmt::join(known_words(choice), "|"));
+std::string kind(T) {
+  return fmt::format("{}", fmt::join(known_words<T>(), "|"));
 }
 
 template <class T>
@@ -294,13 +179,13 @@ template <class T>
 std::string read(const Directive& d, Arguments arguments, T& target) {
   if (arguments.empty()) return expected(d) + found(arguments);
   const std::string word = lower_case(arguments[0]);
-  for (const auto& w : words_of(T{})) {
+  for (const auto& w : choices<T>) {
     if (w.word != word) continue;
     if (arguments.size() > 1) return trailing(arguments);
     target = w.value;
     return {};
   }
-  return expected(d) + found(arguments) + meant(word, known_words(T{}));
+  return expected(d) + found(arguments) + meant(word, known_words<T>());
 }
 
 template <class T>
@@ -328,7 +213,7 @@ std::string text(const std::vector<std::string>& keys) {
 }
 template <class T>
 std::string text(T value) {
-  for (const auto& w : words_of(value))
+  for (const auto& w : choices<T>)
     if (w.value == value) return std::string(w.word);
   return {};
 }

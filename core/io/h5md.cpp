@@ -26,17 +26,17 @@ constexpr std::uint64_t times_a_chunk = 1024;
 /// A unit in the words of H5MD: factors with signed powers.
 std::string h5md_unit(std::string_view key) {
   static const std::map<std::string_view, const char*> words = {{"g/(cm s^2)", "g cm-1 s-2"},
+                                                                {"g/(cm s)", "g cm-1 s-1"},
                                                                 {"cm/s", "cm s-1"},
                                                                 {"statC/s", "statC s-1"},
                                                                 {"g/s", "g s-1"},
                                                                 {"1/s", "s-1"},
+                                                                {"cm^3", "cm3"},
                                                                 {"1", ""}};
-  for (const auto& known : observable_keys) {
-    if (known.key != key) continue;
-    const auto found = words.find(known.unit);
-    return found == words.end() ? std::string(known.unit) : found->second;
-  }
-  return {};
+  const ObservableKey* known = observable_key(key);
+  if (!known) return {};
+  const auto found = words.find(known->unit);
+  return found == words.end() ? std::string(known->unit) : found->second;
 }
 
 std::uint64_t length(const Hdf5File& file, const std::string& dataset) {
@@ -147,6 +147,8 @@ H5md::H5md(const std::filesystem::path& path, Hdf5File::Access access) : file_(p
                       {}};
   const std::string begins_with = fmt::format("{}/begins_with", parameters);
   if (file_.has(begins_with)) content_.made_by.begins_with = file_.text(begins_with);
+  const std::string field_map = fmt::format("{}/field_map", parameters);
+  if (file_.has(field_map)) content_.made_by.field_map = file_.text(field_map);
   const std::string overrides = noted("overrides");
   for (const auto line : lines_of(overrides)) content_.made_by.overrides.emplace_back(line);
   content_.keys = words_of(noted("observables"));

@@ -83,7 +83,8 @@ RunRecord::RunRecord(const Setting& setting) : path_(setting.directory / run_rec
   if (there && setting.existing == Existing::keep) throw exists_already(path_);
   Json record =
       there && setting.existing == Existing::resume ? record_to_continue(setting, path_) : record_of(setting);
-  for (const char* of_a_completed_run : {"effort", "fixed_step", "means"}) record.erase(of_a_completed_run);
+  for (const char* of_a_completed_run : {"effort", "fixed_step", "means", "error_estimate"})
+    record.erase(of_a_completed_run);
   record["deck"] = deck_of(setting.made_by);  // the end of a run that is extended changes
   record["segments"].push_back({{"started", now()},
                                 {"host", host()},

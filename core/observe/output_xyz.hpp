@@ -2,7 +2,7 @@
 /// traj.xyz: the trajectory for VMD, OVITO and the like, in centimetres (times `print xyz rescale`).
 ///
 /// A frame: the number of lines that follow (`print xyz maxnum`, constant); a comment `t = <s> s  beads =
-/// <real lines>`, in the first frame also `program="..." record="run.json"`; lines `C x y z`, oldest bead
+/// <real lines>`, in a frame at t = 0 also `program="..." record="run.json"`; lines `C x y z`, oldest bead
 /// first, the nozzle last, then padding at the origin. With more beads than maxnum the ones nearest to the
 /// collector are kept.
 
@@ -25,7 +25,7 @@ class XyzTrajectory final : public Sampling<D> {
     double interval;  ///< scaled
     int maxnum;
     double rescale;
-    std::string made_by;  ///< told in the first frame; VMD reads comments of up to 1023 characters
+    std::string made_by;  ///< told at t = 0; VMD reads comments of up to 1023 characters
   };
 
   XyzTrajectory(const Setting& setting, OutputFile file)

@@ -49,7 +49,7 @@ void Recorder<D>::add(const std::vector<std::string>& keys, std::shared_ptr<RowS
 template <int D>
 void Recorder<D>::start(const Jet<D>& jet) {
   started_ = last_row_ = Clock::now();
-  statistics_.begin_window(jet.t);
+  statistics_.start(jet);
   fed_ = statistics_.charge_fed(jet);
   Sampling<D>::start(jet);
 }

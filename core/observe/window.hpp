@@ -5,6 +5,7 @@
 /// step by Gauss's rule with two points, whose error, O(h^5) a step, is far below that of the step. All
 /// scaled.
 
+#include <limits>
 #include <numbers>
 
 #include "core/jet/collector.hpp"
@@ -38,6 +39,14 @@ class Statistics {
   bool follows_path() const { return follows_path_; }
 
   const Window& window() const { return window_; }
+
+  /// Of a jet that has flown elsewhere it is not known when the last bead arrived, and how fast the nozzle
+  /// has let the last one go.
+  void start(const Jet<D>& jet) {
+    begin_window(jet.t);
+    if (jet.t > 0) last_release_speed_ = std::numeric_limits<double>::quiet_NaN();
+    if (jet.size() > 0) next_arrival_from_ = jet.y(0, 0);
+  }
 
   void begin_window(double t) {
     window_ = Window{};
@@ -81,6 +90,7 @@ class Statistics {
 
   /// Charge that has left the nozzle, the part of the next bead that has been drawn out counted.
   double charge_fed(const Jet<D>& jet) const {
+    if (!nozzle_.inserting()) return 0;
     if (jet.size() == 0) return double(released_);
     return double(released_) + nozzle_.drawn(jet) - 1;
   }

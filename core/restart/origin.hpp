@@ -7,14 +7,15 @@
 ///
 /// What is taken: the time, and of each bead position, velocity, stress, charge, mass, volume, number and the
 /// columns that the new scene adds (core/jet/columns.hpp), in CGS, and what has been fed since the last
-/// release, if the flow is given; of a checkpoint also whether a bead is held at the nozzle. What the deck says of its initial jet has no effect then, but for the length of an
-/// element.
+/// release, if the flow is given; of a checkpoint also whether a bead is held at the nozzle. What the deck
+/// says of its initial jet has no effect then, but for the length of an element.
 ///
 /// What may differ between the two decks: all but `system` and a charge density of 0 on one side only;
 /// columns that the new scene adds must be there. The other run is left as it is. Where only outputs, final
 /// time and checkpoints differ, a checkpoint also gives the history of the steps, and the jet goes on to the
-/// bit as the other one would; fcn and fcc, differences of sums since the start, may round otherwise. Either
-/// run may hold its jet in subdomains: its steps go on if both do, to the bit on as many ranks. Each rank of
+/// bit as the other one would. What the tables sum up begins anew: fcn and fcc, differences of sums since the
+/// start, may round otherwise, fcc has its first bead arrive from where it is, and vn is not a number until
+/// one is released. Either run may hold its jet in subdomains: its steps go on if both do, to the bit on as many ranks. Each rank of
 /// the new one reads the whole state once.
 ///
 /// Errors: FileError if there is no such state, InputError if the deck cannot begin with it.

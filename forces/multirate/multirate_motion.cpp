@@ -121,7 +121,21 @@ void MultirateMotion<D>::follow(const Jet<D>& jet, const State<D>& y) {
   gather_fast(y, fast_region_.jet.y);
   fast_region_.jet.held = jet.held;
   fast_region_.jet.last_release = jet.last_release;
+  name_fast_beads(jet);
   specific_charge_ = specific_charge(fast_region_.jet, {0, fast_region_beads});
+}
+
+/// The rows of the fast region do not follow one another: each bead has its id.
+template <int D>
+void MultirateMotion<D>::name_fast_beads(const Jet<D>& jet) {
+  Jet<D>& fast = fast_region_.jet;
+  fast.removed = jet.removed;
+  fast.born = jet.born;
+  if (jet.id.size() > 0) return gather_fast(jet.id, fast.id);
+  const std::int64_t left_out = all_.beads(jet) - fast_region_beads;
+  fast.id.resize(fast_region_beads);
+  for (Eigen::Index i = 0; i < fast_region_beads; ++i)
+    fast.id[i] = jet.removed + 1 + i + (i < fast_region_old ? 0 : left_out);
 }
 
 /// Q q / m of some beads.

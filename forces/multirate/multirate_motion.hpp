@@ -87,6 +87,7 @@ class MultirateMotion final : public RightHandSide<D> {
   double Q() const { return full_.Q(); }
   Eigen::ArrayXd specific_charge(const Jet<D>& jet, Rows rows) const;
   void follow(const Jet<D>& jet, const State<D>& y);
+  void name_fast_beads(const Jet<D>& jet);
   void continued(const Jet<D>& jet, double t, const State<D>& y, State<D>& slope);
   void continue_middle(const Jet<D>& jet, double t, const State<D>& y, const State<D>& ends,
                        State<D>& slope) const;

@@ -2,7 +2,6 @@
 /// A scene: what a deck's parameters compose, ready to move. Only the terms that the deck names are in it,
 /// and those that a caller brings along; for each one left out, `left_out` tells why.
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -58,12 +57,6 @@ struct Scene {
 
   Decomposition<D>& decomposition() { return subdomains ? *subdomains : undivided<D>; }
 };
-
-/// Puts the motion of a jet of so many beads in subdomains on top of the local terms; `jet_of` gives the
-/// beads of a subdomain by number.
-using JetOfRows = std::function<Jet<3>(const std::vector<int>&)>;
-void distribute(Scene<3>& scene, const Parameters& parameters, int beads, const JetOfRows& jet_of,
-                Threads threads, const Ranks& ranks, bool two_rates = false);
 
 template <int D>
 Scene<D> compose(const Parameters& parameters, Threads threads, const Ranks& ranks = {},

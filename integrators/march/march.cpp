@@ -64,17 +64,16 @@ void March<D>::give_up() const {
   Eigen::Index bead = 0;
   double most = 0;
   const bool of_these = next_.y.rows() == jet_.size();  // no event has changed their number since
-  if (error.rows() > 0 && of_these) {
-    most = error.abs().rowwise().maxCoeff().maxCoeff(&bead);
-    if (fast_region_ && bead >= fast_region_->oldest) bead += jet_.size() - error.rows();
-  }
+  if (error.rows() > 0 && of_these) most = error.abs().rowwise().maxCoeff().maxCoeff(&bead);
   const bool mine = !(all.greatest(most) > most);
-  const auto number = static_cast<std::int64_t>(all.greatest(mine ? double(all.before(jet_) + bead) : 0));
+  const auto number_of = [&](Eigen::Index row) {
+    return fast_region_ ? number(fast_region_->jet.id, fast_region_->jet.removed, row)
+                        : all.numbers(jet_)[row];
+  };
   throw NumericalError(
-      fmt::format("at scaled time {}: the step has fallen below round-off because of bead {} (number {} "
-                  "since the start); "
-                  "likely cause: beads have met, or the tolerance is too small to be met",
-                  jet_.t, number - jet_.removed, number));
+      fmt::format("at scaled time {}: the step has fallen below round-off because of bead number {} since "
+                  "the start; likely cause: beads have met, or the tolerance is too small to be met",
+                  jet_.t, static_cast<std::int64_t>(all.greatest(mine ? double(number_of(bead)) : 0))));
 }
 
 /// Steps from here to next_ until the step control is content; returns the time up to which an event may be

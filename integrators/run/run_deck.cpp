@@ -51,9 +51,16 @@ class StopVote {
   StopSignals signals_;
 };
 
-/// Before anything is made: an old table is not to be replaced unasked.
-void expect_estimate_possible(const Parameters& p, const Arguments& a, const std::filesystem::path& table) {
+/// Before anything is made: an old table is not to be replaced unasked. A run that goes on does not have the
+/// jet of another any more that it once began with.
+void expect_estimate_possible(const Parameters& p, const Arguments& a, const std::filesystem::path& table,
+                              const std::string& begins_with) {
   expect_estimable(p);
+  if (!a.resume.empty() && !begins_with.empty())
+    throw InputError(
+        fmt::format("--estimate-error: this run began with {}; expected --estimate-error of a "
+                    "whole run: treejet run DECK --from ... --estimate-error",
+                    begins_with));
   std::error_code error;
   if (!a.force && std::filesystem::exists(std::filesystem::symlink_status(table, error)))
     throw exists_already(table);
@@ -102,6 +109,35 @@ Provenance made(const Deck& deck, const OwnPhysics& own, const Beginning& from =
   return p;
 }
 
+/// What a run is made of; a jet that is begun with takes the place of the deck's initial one.
+template <int D>
+Scene<D> scene_of(const Parameters& p, Threads threads, const Ranks& ranks, const OwnPhysics& own,
+                  const Beginning& from) {
+  Scene<D> scene = compose<D>(p, threads, ranks, own_terms<D>(own, p));
+  if (from.origin) scene.decomposition().take(scene.jet, jet_of<D>(*from.origin, p, scene.columns));
+  return scene;
+}
+
+/// Above the table on the terminal.
+template <int D>
+void announce(const Deck& deck, const Scene<D>& scene, const Provenance& made_by, const Beginning& from,
+              const std::string& workers) {
+  const Parameters& p = deck.parameters;
+  fmt::print("{}\n{}\n{}{}", program(made_by), deck.name, notes(deck),
+             composition(scene.composed, scene.left_out));
+  if (from.origin)
+    fmt::print("begins with {}; {}\n", made_by.begins_with,
+               steps_of(*from.origin, p) ? "its steps go on" : "its steps begin anew");
+  fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p), workers);
+}
+
+/// A table of errors of another run, or of a part of this one, would stand beside rows that it does not belong
+/// to.
+void remove_outdated(const std::filesystem::path& error_table, bool outdated, const Ranks& ranks) {
+  std::error_code error;
+  if (outdated && ranks.first()) std::filesystem::remove(error_table, error);
+}
+
 template <int D>
 int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysics& own,
         const Beginning& from) {
@@ -113,34 +149,22 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysi
   const std::string directory = from.resumed ? a.resume : a.out;
   StopVote stop(p, a, ranks);
   const std::filesystem::path error_table = std::filesystem::path(directory) / error_table_name;
-  if (a.estimate_error) expect_estimate_possible(p, a, error_table);
-  Scene<D> scene = compose<D>(p, each, ranks, own_terms<D>(own, p));
-  if (from.origin) scene.decomposition().take(scene.jet, jet_of<D>(*from.origin, p, scene.columns));
+  if (a.estimate_error) expect_estimate_possible(p, a, error_table, made_by.begins_with);
+  Scene<D> scene = scene_of<D>(p, each, ranks, own, from);
   OutputSetting outputs{directory,          existing(a), a.quiet,
                         !ranks.first(),     made_by,     {ranks.size(), each.count},
                         scene.force_error()};
   outputs.changes = from.changes;
-  Checkpoint* const steps = from.origin ? steps_of(*from.origin, p) : nullptr;
-  Simulation<D> simulation(deck, system(scene),
-                           {outputs, [&stop] { return stop(); }, from.resumed, own_observables<D>(own), steps,
-                            [&ranks] { return ranks.times(); },
-                            [&ranks](std::span<double> numbers) {
-                              ranks.sum(numbers);
-                              for (double& number : numbers) number /= ranks.size();
-                            }});
-  if (!a.quiet) {
-    fmt::print("{}\n{}\n{}{}", program(made_by), deck.name, notes(deck),
-               composition(scene.composed, scene.left_out));
-    if (from.origin)
-      fmt::print("begins with {}; {}\n", made_by.begins_with,
-                 steps ? "its steps go on" : "its steps begin anew");
-    fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p),
-               workers_description(p, ranks, each));
-  }
-  if (a.force && ranks.first()) {  // it would stand beside rows that it does not belong to
-    std::error_code error;
-    std::filesystem::remove(error_table, error);
-  }
+  Simulation<D> simulation(
+      deck, system(scene),
+      {outputs, [&stop] { return stop(); }, from.resumed, own_observables<D>(own),
+       from.origin ? steps_of(*from.origin, p) : nullptr, [&ranks] { return ranks.times(); },
+       [&ranks](std::span<double> numbers) {
+         ranks.sum(numbers);
+         for (double& number : numbers) number /= ranks.size();
+       }});
+  if (!a.quiet) announce(deck, scene, made_by, from, workers_description(p, ranks, each));
+  remove_outdated(error_table, a.force || from.resumed, ranks);
   const auto started = std::chrono::steady_clock::now();
   if (!simulation.finish()) {
     ranks.greatest(stopped_early);  // no rank ends before the first one has written the checkpoint
@@ -151,13 +175,9 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysi
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!a.quiet) fmt::print("\n{}{}", simulation.summary(), times_description(ranks.times(), seconds));
-  if (a.estimate_error) {
-    const Parameters second = finer(p);
-    Scene<D> again = compose<D>(second, each, ranks, own_terms<D>(own, second));
-    if (from.origin) again.decomposition().take(again.jet, jet_of<D>(*from.origin, p, again.columns));
-    estimate_error<D>(p, a, directory, std::move(again), own_observables<D>(own), ranks,
-                      [&stop] { return stop() == StopRequest::stop; });
-  }
+  if (a.estimate_error)
+    estimate_error<D>(p, a, directory, scene_of<D>(finer(p), each, ranks, own, from), own_observables<D>(own),
+                      ranks, [&stop] { return stop() == StopRequest::stop; });
   return 0;
 }
 
@@ -170,9 +190,18 @@ void expect_same_map(const Parameters& p, Checkpoint& resumed) {
                                  before.empty() ? "no field map" : before, now.empty() ? "none" : now));
 }
 
-/// A run that goes on is cut as it was.
-ParallelData data_of_ranks(const Parameters& p, const Ranks& ranks, const Beginning& from) {
+/// A run that goes on is cut as it was. Observables of a caller's own see the whole jet.
+ParallelData data_of_ranks(const Parameters& p, const Ranks& ranks, const OwnPhysics& own,
+                           const Beginning& from) {
   using enum ParallelData;
+  if (!own.observables.empty()) {
+    if (p.parallel == distributed)
+      throw InputError(
+          fmt::format("parallel: expected replicated with the observables of {}, which see the "
+                      "whole jet, found distributed",
+                      own.name));
+    return replicated;
+  }
   if (p.parallel != automatic) return p.parallel;
   if (from.resumed) return from.resumed->records > 0 ? distributed : replicated;
   if (!from.origin) return data_of_ranks(p, ranks.size());
@@ -182,7 +211,7 @@ ParallelData data_of_ranks(const Parameters& p, const Ranks& ranks, const Beginn
 
 int run(Deck deck, const Arguments& a, const Ranks& ranks, const OwnPhysics& own,
         const Beginning& from = {}) {
-  deck.parameters.parallel = data_of_ranks(deck.parameters, ranks, from);
+  deck.parameters.parallel = data_of_ranks(deck.parameters, ranks, own, from);
   read_field_map_of(deck);
   if (from.resumed) expect_same_map(deck.parameters, *from.resumed);
   const bool straight = deck.parameters.system == 1;

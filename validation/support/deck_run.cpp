@@ -12,6 +12,7 @@
 #include "core/jet/scales.hpp"
 #include "core/restart/origin.hpp"
 #include "forces/coulomb/coulomb.hpp"
+#include "forces/scene/distribute.hpp"
 #include "integrators/run/simulation.hpp"
 #include "validation/support/machine.hpp"
 #include "validation/support/part_of_jet.hpp"

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "forces/scene/distribute.hpp"
 #include "integrators/run/integration.hpp"
 #include "validation/support/experiment.hpp"
 #include "validation/support/machine.hpp"

@@ -297,6 +297,14 @@ TEST_CASE("Charge is fed and lands without steps, and as much as by whole beads 
   }
 }
 
+TEST_CASE("A nozzle that inserts nothing feeds no current, not even as the jet leaves it") {
+  Parameters p = uniform_motion();
+  Run<3> run(p);
+  const auto r = recorded<3>(run, {"fcn", "curn"}, 1e-2, 0.3);
+  REQUIRE(r.size() > 10);
+  for (const auto& row : r) CHECK((row[0] == 0 && row[1] == 0));
+}
+
 TEST_CASE("The largest error of the forces is not their mean one") {
   Run<3> run(example("pvp"));
   FieldErrorReport forces;

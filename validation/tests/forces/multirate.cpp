@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "validation/support/run.hpp"
+#include "validation/support/scenes.hpp"
 
 using namespace treejet;
 
@@ -350,6 +351,34 @@ TEST_CASE("Fast beads have the joints of all elements, however far along the jet
   // hands a continued field: round-off of sums over all beads
   const State<3> off = (slope - full).topRows(n - 1);
   CHECK(off.abs().maxCoeff() < 1e-11 * full.abs().maxCoeff());
+}
+
+TEST_CASE("Fast beads have their own numbers, with and without refinement") {
+  for (const bool refined : {false, true}) {
+    CAPTURE(refined);
+    const Parameters p = example("pvp");
+    Run<3> run(with_tolerance(p, 1e-6));
+    run.to(0.012);
+    Jet<3> jet = run.jet();
+    const Eigen::Index n = jet.size();
+    REQUIRE(n > 2 * fast_region_beads);
+    jet.removed = 17;  // as if so many had arrived
+    if (refined) {
+      number_beads(jet);
+      jet.id[1] += 1000;  // born by a split
+    }
+    MultirateMotion<3> two(*run.scene.motion, ErrorNorm(p), ShortWaves(p));
+    State<3> slope;
+    for (int k = 0; k < 3; ++k) two.on_accepted_step(jet, jet.t += 1e-6, jet.y, nullptr, slope);
+    jet.slope = slope;
+    const FastRegion<3>* fast = two.fast_region(jet);
+    REQUIRE(fast);
+    const Chain<3> chain = chain_of<3>(fast->jet, run.scene.nozzle);
+    for (Eigen::Index i = 0; i < fast_region_beads; ++i) {
+      const Eigen::Index row = i < fast->oldest ? i : n - fast_region_beads + i;
+      CHECK(chain.number(i) == number(jet.id, jet.removed, row));
+    }
+  }
 }
 
 TEST_CASE("What is continued after a refinement is the past of the refined jet, not of one interpolated") {

@@ -137,6 +137,8 @@ expect 0 "beginning with another run's jet" "$treejet" run "$pvp" --quiet --out 
 is "first time of it" "$(awk '!/^#/ {printf "%.3f", $1; exit}' onward/statdat.dat)" 0.040
 grep -q '^## begins with source/checkpoint.end, t = 0.0.* external potential' onward/statdat.dat || fail "statdat.dat does not tell with what it begins"
 diff -r whole source >/dev/null || fail "a run that another one began with was changed"
+expect 2 "an error estimate of a run that had begun with another jet and goes on" "$treejet" run --resume onward --set "final time 4.3d-2" --estimate-error
+grep -q 'begins with\|began with' err || fail "the message does not tell with what the run began: $(cat err)"
 expect 2 "beginning where the other run is" "$treejet" run "$pvp" --out source --from source --force
 diff -r whole source >/dev/null || fail "a refused run changed the one it was to begin with"
 

@@ -42,6 +42,10 @@ says err "resume it with the program that began it"
 cmp whole/traj.h5 parts/traj.h5 || fail "a stopped and resumed run leaves other frames"
 cmp whole/statdat.dat parts/statdat.dat || fail "a stopped and resumed run leaves other rows"
 
+run --out cut --set "parallel distributed" --set "coulomb auto" >out 2>err
+[ $? -eq 2 ] || fail "an observable of the whole jet in subdomains"
+says err "which see the whole jet"
+
 "$drag" check "$source/examples/straight-jet/input.dat" >out 2>err
 [ $? -eq 2 ] || fail "a straight jet"
 says err "quadratic drag is written for three dimensions"

@@ -23,7 +23,7 @@ def skip(why):
 def make(treejet, deck, directory):
     """Long enough for beads to come and to go."""
     sets = ["final time 6.d-3", "print time 1.d-3", "print hdf5 2.d-4", "collector distance 0.3",
-            "printstat list t x n st vc"]
+            "printstat list t x n st vc", "print list t x n st vc visc gc vol curc mfc svc"]
     words = [word for line in sets for word in ("--set", line)]
     subprocess.run([treejet, "run", deck, "--out", directory, "--quiet", "--force", *words], check=True)
     for kind in ("xyz", "extxyz", "csv", "vtp"):

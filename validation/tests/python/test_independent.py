@@ -68,3 +68,8 @@ def test_the_error_that_a_second_run_tells_is_the_error_of_the_first(tmp_path):
     assert len(rows) == summary["values"]
     assert of_x["of_mean"] == pytest.approx(abs(rows.mean()), rel=1e-12)
     assert subprocess.run(command, capture_output=True).returncode == 4  # what is there stays
+    # neither is that of a longer run
+    extended = [os.environ["TREEJET"], "run", "--resume", tmp_path, "--quiet", "--set", "final time 0.0201"]
+    subprocess.run(extended, check=True)
+    assert not (tmp_path / "statdat.error.dat").exists()
+    assert "error_estimate" not in json.loads((tmp_path / "run.json").read_text())
