@@ -23,7 +23,7 @@ constexpr double most_points = 1e8;
 
 std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError(path.string() + ": cannot be opened");
+  if (!file) throw FileError(std::filesystem::absolute(path).string() + ": cannot be opened");
   std::string bytes((std::istreambuf_iterator<char>(file)), {});
   if (file.bad()) throw FileError(path.string() + ": cannot be read");
   return bytes;

@@ -22,8 +22,7 @@ namespace {
 /// the end. Small ones waste little on short jets; of a long one they would be so many that HDF5 took longer
 /// to find them than to write them.
 H5md::Chunk growing_chunk(std::uint64_t points) {
-  constexpr std::uint64_t small = 256, large = 8192;
-  return {1, points > points_at_once ? large : small, /*compressed*/ false};
+  return {1, points_of_growing_chunk(points), /*compressed*/ false};
 }
 constexpr std::size_t most_pending = 256;               ///< frames in memory
 constexpr std::size_t most_pending_points = 1'000'000;  ///< of them together
@@ -49,6 +48,11 @@ H5md::Chunk final_chunk(const H5md& file) {
 
 }  // namespace
 
+std::uint64_t points_of_growing_chunk(std::uint64_t points) {
+  constexpr std::uint64_t small = 256, large = 8192;
+  return points > points_at_once ? large : small;
+}
+
 H5mdTrajectory::H5mdTrajectory(const fs::path& path, H5md::Content content, OutputFile::Existing existing,
                                RowSharing chunks_shared)
     : path_(path), content_(std::move(content)), chunks_shared_(std::move(chunks_shared)) {
@@ -68,6 +72,8 @@ H5mdTrajectory::~H5mdTrajectory() {
   } catch (const std::exception&) {
     // if it is this file that the run has failed over, it has been told
   }
+  std::error_code error;
+  fs::remove(twin(), error);  // the file is whole without it, and a full disk has better use for its room
 }
 
 fs::path H5mdTrajectory::twin() const {

@@ -26,6 +26,9 @@
 
 namespace treejet {
 
+/// Points of a chunk of a file that is still written, whose frames are whole chunks and not compressed.
+std::uint64_t points_of_growing_chunk(std::uint64_t points_of_first_frame);
+
 class H5mdTrajectory {
  public:
   /// A new one, without frames; or, to be resumed, the one that is there, whatever it holds: continue_from

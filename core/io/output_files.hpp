@@ -13,7 +13,12 @@ struct OutputFileKind {
   bool (*asked_for)(const Parameters& p);
   /// Of a whole run whose frames have so many points in the mean.
   double (*bytes)(const Parameters& p, double points);
+  /// At the most while the run goes on; null: not more than at its end.
+  double (*bytes_meanwhile)(const Parameters& p, double points) = nullptr;
 };
+
+/// All of them.
+std::vector<OutputFileKind> all_output_files();
 
 /// The rows of the table that a deck asks for; the record of the run, which stands beside any other, is the
 /// last.

@@ -140,6 +140,14 @@ void record_errors(const fs::path& directory, const std::string& against,
   write(directory / run_record_name, record);
 }
 
+std::vector<std::string> recorded_files(const fs::path& directory) try {
+  auto names = read_record(directory / run_record_name).at("files").get<std::vector<std::string>>();
+  names.emplace_back(run_record_name);
+  return names;
+} catch (const std::exception&) {
+  return {};
+}
+
 bool has_completed(const fs::path& directory) try {
   const Json record = read_record(directory / run_record_name);
   return record.at("segments").back().at("outcome") == "completed";

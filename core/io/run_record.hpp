@@ -6,7 +6,8 @@
 ///      "segments": [{"started", "host", "ranks", "threads", "ended", "wall_seconds", "outcome", "compute",
 ///                    "exchange", "wait", "gatherings", "work": {"steps", "multirate", "local", "build",
 ///                    "upward", "exchange", "evaluate", "tuning", "output"}}, ...],
-///      "effort": {"evaluations", "steps", "rejected", "retaken", "inserted", "arrived", "beads"},
+///      "effort": {"evaluations", "steps", "rejected", "retaken", "inserted", "split", "merged",
+///                 "arrived", "beads"},
 ///      "fixed_step": {"step_error", "samples", "event_lateness"},
 ///      "means": {"vc": {"unit", "mean", "error", "from", "values", "block", "steady"}, ...}}
 ///
@@ -88,6 +89,9 @@ struct ErrorOfObservable {
 /// "steady"}, ...}} to the record of a run that is over.
 void record_errors(const std::filesystem::path& directory, const std::string& against,
                    const std::vector<ErrorOfObservable>& errors);
+
+/// The names of the files of the run in a directory, its record among them; none without a sound record.
+std::vector<std::string> recorded_files(const std::filesystem::path& directory);
 
 /// Whether the last segment of the run in a directory has come to its end; false without a sound record.
 bool has_completed(const std::filesystem::path& directory);

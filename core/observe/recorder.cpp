@@ -51,6 +51,7 @@ void Recorder<D>::start(const Jet<D>& jet) {
   started_ = last_row_ = Clock::now();
   statistics_.start(jet);
   fed_ = statistics_.charge_fed(jet);
+  landed_ = statistics_.charge_landed(jet);
   Sampling<D>::start(jet);
 }
 

@@ -114,7 +114,7 @@ std::vector<RecordedMean> SteadyMeans::means() const {
 }
 
 bool has_mean(const std::string& key) {
-  constexpr std::string_view no_mean[] = {"t", "ts", "cpu", "cpue", "cpur", "f", "l"};
+  constexpr std::string_view no_mean[] = {"t", "ts", "cpu", "cpue", "cpur", "f", "l", "nref", "nmrg"};
   return std::find(std::begin(no_mean), std::end(no_mean), key) == std::end(no_mean);
 }
 

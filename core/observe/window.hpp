@@ -40,12 +40,12 @@ class Statistics {
 
   const Window& window() const { return window_; }
 
-  /// Of a jet that has flown elsewhere it is not known when the last bead arrived, and how fast the nozzle
-  /// has let the last one go.
+  /// Of a jet that has flown elsewhere it is not known how fast the nozzle has let the last bead go, nor where
+  /// the oldest was when the last one arrived: about as far from the collector as the next is behind it now.
   void start(const Jet<D>& jet) {
     begin_window(jet.t);
     if (jet.t > 0) last_release_speed_ = std::numeric_limits<double>::quiet_NaN();
-    if (jet.size() > 0) next_arrival_from_ = jet.y(0, 0);
+    if (jet.size() > 1) next_arrival_from_ = collector_.distance() - (jet.y(0, 0) - jet.y(1, 0));
   }
 
   void begin_window(double t) {

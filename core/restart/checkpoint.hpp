@@ -69,6 +69,8 @@ class CheckpointParts {
 
 /// The part of the columns that the scene adds, which is there if there are any.
 inline constexpr const char* columns_part = "columns";
+/// The part that tells where the run's field map is.
+inline constexpr const char* field_map_place = "field map place";
 struct SavedColumn {
   std::string name;
   double scale = 1;  ///< what 1 is in CGS

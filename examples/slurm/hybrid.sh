@@ -24,7 +24,7 @@ export OMP_NUM_THREADS=$SLURM_CPUS_PER_TASK
 export OMP_PLACES=cores
 export OMP_PROC_BIND=close
 
-if [ -e "$results/checkpoint" ]; then
+if [ -e "$results/checkpoint" ] || [ -e "$results/checkpoint.old" ] || [ -e "$results/checkpoint.end" ]; then
   what=(--resume "$results")
 else
   what=("$deck" --out "$results" --force) # --force: of an attempt that died before its first checkpoint

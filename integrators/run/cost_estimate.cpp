@@ -120,8 +120,8 @@ Plan plan(const Parameters& p, const Trial& trial, bool all_pairs) {
     const TrialSample& s = trial.samples[i];
     plan.most_beads = std::max(plan.most_beads, double(s.beads));
     if (i > 0) plan.mean_beads += (s.t - trial.samples[i - 1].t) / end * double(s.beads);
-    if (s.removed > 0 && !plan.first_arrival) plan.first_arrival = s.t * time;
   }
+  if (trial.first_arrival) plan.first_arrival = *trial.first_arrival * time;
   plan.inserted = double(last.inserted);
   plan.evaluations = double(last.evaluations);
   plan.steps = double(last.steps);
@@ -165,12 +165,16 @@ std::string plan_description(const Parameters& p, const Trial& trial, bool all_p
                           : "; none arrives\n";
   text +=
       fmt::format("  work        {:.3g} evaluations of the forces in {:.3g} steps\n", e.evaluations, e.steps);
-  text += fmt::format("  time        {} on this machine, as busy as it is now\n",
+  text += fmt::format("  time        {} on this machine, as busy as it is now, and that of writing files\n",
                       e.seconds < 1 ? fmt::format("{:.2g} s", e.seconds) : duration_text(e.seconds));
   text += fmt::format("  memory      {}\n", bytes_text(e.memory));
-  for (const OutputFileKind& file : output_files(p))
-    text +=
-        fmt::format("  {:<12}{}\n", file.name, bytes_text(file.bytes(p, e.mean_beads + 1)));  // the nozzle
+  const double points = e.mean_beads + 1;  // the nozzle
+  for (const OutputFileKind& file : output_files(p)) {
+    text += fmt::format("  {:<12}{}", file.name, bytes_text(file.bytes(p, points)));
+    if (file.bytes_meanwhile)
+      text += fmt::format(", before the end up to {}", bytes_text(file.bytes_meanwhile(p, points)));
+    text += "\n";
+  }
   return text;
 }
 

@@ -38,8 +38,9 @@ struct TrialSample {
 };
 
 struct Trial {
-  std::vector<TrialSample> samples;  ///< the first one at the start
-  bool complete = false;             ///< to the final time
+  std::vector<TrialSample> samples;          ///< the first one at the start
+  bool complete = false;                     ///< to the final time
+  std::optional<double> first_arrival = {};  ///< if there was one, scaled
 };
 
 struct Plan {

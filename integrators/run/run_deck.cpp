@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "core/io/atomic_file.hpp"
 #include "core/io/directory_lock.hpp"
 #include "core/io/field_map_file.hpp"
+#include "core/io/output_files.hpp"
 #include "core/io/provenance.hpp"
 #include "core/io/run_record.hpp"
 #include "core/restart/origin.hpp"
@@ -131,11 +133,22 @@ void announce(const Deck& deck, const Scene<D>& scene, const Provenance& made_by
   fmt::print("{}, {}; {}\n\n", name(chosen_scheme(p)), steps_description(p), workers);
 }
 
-/// A table of errors of another run, or of a part of this one, would stand beside rows that it does not belong
-/// to.
-void remove_outdated(const std::filesystem::path& error_table, bool outdated, const Ranks& ranks) {
+/// The files of the run that --force replaces which this one does not make: readers would take them for its
+/// own.
+std::vector<std::filesystem::path> left_by_replaced_run(const Parameters& p,
+                                                        const std::filesystem::path& directory) {
+  const auto is_in = [](const std::vector<OutputFileKind>& kinds, const std::string& name) {
+    return std::any_of(kinds.begin(), kinds.end(), [&](const OutputFileKind& k) { return k.name == name; });
+  };
+  std::vector<std::filesystem::path> left;
+  for (const std::string& name : recorded_files(directory))
+    if (is_in(all_output_files(), name) && !is_in(output_files(p), name)) left.push_back(directory / name);
+  return left;
+}
+
+void remove_all(const std::vector<std::filesystem::path>& outdated) {
   std::error_code error;
-  if (outdated && ranks.first()) std::filesystem::remove(error_table, error);
+  for (const auto& file : outdated) std::filesystem::remove(file, error);
 }
 
 template <int D>
@@ -151,6 +164,10 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysi
   const std::filesystem::path error_table = std::filesystem::path(directory) / error_table_name;
   if (a.estimate_error) expect_estimate_possible(p, a, error_table, made_by.begins_with);
   Scene<D> scene = scene_of<D>(p, each, ranks, own, from);
+  std::vector<std::filesystem::path> outdated;
+  if (a.force && ranks.first()) outdated = left_by_replaced_run(p, directory);
+  // errors of another run, or of a part of this one, would stand beside rows that they do not belong to
+  if ((a.force || from.resumed) && ranks.first()) outdated.push_back(error_table);
   OutputSetting outputs{directory,          existing(a), a.quiet,
                         !ranks.first(),     made_by,     {ranks.size(), each.count},
                         scene.force_error()};
@@ -164,7 +181,7 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysi
          for (double& number : numbers) number /= ranks.size();
        }});
   if (!a.quiet) announce(deck, scene, made_by, from, workers_description(p, ranks, each));
-  remove_outdated(error_table, a.force || from.resumed, ranks);
+  remove_all(outdated);
   const auto started = std::chrono::steady_clock::now();
   if (!simulation.finish()) {
     ranks.greatest(stopped_early);  // no rank ends before the first one has written the checkpoint
@@ -179,6 +196,14 @@ int run(const Deck& deck, const Arguments& a, const Ranks& ranks, const OwnPhysi
     estimate_error<D>(p, a, directory, scene_of<D>(finer(p), each, ranks, own, from), own_observables<D>(own),
                       ranks, [&stop] { return stop() == StopRequest::stop; });
   return 0;
+}
+
+/// Where a run that goes on has had its map, from wherever it is gone on with, if it is still there.
+void find_map_again(Parameters& p, Checkpoint& resumed) {
+  std::string place;
+  std::error_code error;
+  if (resumed.state.has(field_map_place)) resumed.state.part(field_map_place, place);
+  if (std::filesystem::exists(place, error)) p.field_map = place;
 }
 
 /// A run that goes on has the map that it began with.
@@ -212,6 +237,7 @@ ParallelData data_of_ranks(const Parameters& p, const Ranks& ranks, const OwnPhy
 int run(Deck deck, const Arguments& a, const Ranks& ranks, const OwnPhysics& own,
         const Beginning& from = {}) {
   deck.parameters.parallel = data_of_ranks(deck.parameters, ranks, own, from);
+  if (from.resumed) find_map_again(deck.parameters, *from.resumed);
   read_field_map_of(deck);
   if (from.resumed) expect_same_map(deck.parameters, *from.resumed);
   const bool straight = deck.parameters.system == 1;

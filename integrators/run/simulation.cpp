@@ -136,6 +136,8 @@ RunResults Simulation<D>::results() const {
            {"rejected", e.rejected},
            {"retaken", e.retaken},
            {"inserted", e.placed},
+           {"split", e.split},
+           {"merged", e.merged},
            {"arrived", e.removed},
            {"beads", decomposition_.beads(jet_) + jet_.held}},
           {{"compute", seconds - t.exchange - t.wait},
@@ -193,7 +195,11 @@ Checkpoint Simulation<D>::state() {
   for (const Column& c : setting_.outputs.added) columns.push_back({c.name, c.scale});
   if (!columns.empty()) checkpoint.state.part(columns_part, columns);
   std::string begins_with = by.begins_with, field_map = by.field_map;
-  if (!field_map.empty()) checkpoint.state.part("field map", field_map);
+  if (!field_map.empty()) {
+    std::string place = std::filesystem::absolute(deck_.parameters.field_map).string();
+    checkpoint.state.part("field map", field_map);
+    checkpoint.state.part(field_map_place, place);
+  }
   if (!begins_with.empty()) checkpoint.state.part("begins with", begins_with);
   return checkpoint;
 }
@@ -220,8 +226,10 @@ std::string Simulation<D>::summary() const {
   std::string text;
   if (decomposition_.beads(jet_) == 0 && t() < deck_.parameters.final_time)
     text = fmt::format("the jet has left at t = {:.10g} s: all beads have arrived, none is inserted\n", t());
-  text += fmt::format("done in {:.3g} s: {} beads on the jet, {} inserted, {} arrived\n", seconds,
-                      decomposition_.beads(jet_) + jet_.held, e.placed, e.removed);
+  const std::string refined =
+      deck_.parameters.refinement ? fmt::format("{} split, {} merged, ", e.split, e.merged) : "";
+  text += fmt::format("done in {:.3g} s: {} beads on the jet, {} inserted, {}{} arrived\n", seconds,
+                      decomposition_.beads(jet_) + jet_.held, e.placed, refined, e.removed);
   if (nozzle_.inserting()) text += flow_summary();
   text += fmt::format(
       "{} evaluations of the forces in {} steps ({} rejected, {} retaken for an event), {:.3g} us each\n",

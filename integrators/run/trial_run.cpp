@@ -18,9 +18,10 @@ class Onlooker final : public Observer<D> {
     now_.x = segment.first()(0, 0);
     now_.v = segment.first()(0, velocity_column<D>);
   }
-  void event(EventKind kind, const Jet<D>&) override {
+  void event(EventKind kind, const Jet<D>& jet) override {
     now_.inserted += kind == EventKind::place;
     now_.removed += kind == EventKind::removal;
+    if (now_.removed > 0 && !first_arrival) first_arrival = jet.t;
   }
 
   TrialSample sample(double seconds, const Effort& effort) const {
@@ -30,6 +31,8 @@ class Onlooker final : public Observer<D> {
     s.steps = effort.steps;
     return s;
   }
+
+  std::optional<double> first_arrival;
 
  private:
   TrialSample now_;
@@ -59,6 +62,7 @@ Trial trial_run(const Parameters& p, const System<D>& system, double seconds) {
   watched = &march;
   trial.complete = march.to(p.final_time / scales(p).time);
   trial.samples.push_back(onlooker.sample(elapsed(), march.effort()));
+  trial.first_arrival = onlooker.first_arrival;
   return trial;
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import signal
 import sys
 from pathlib import Path
@@ -80,18 +81,39 @@ def main(words: "list[str]") -> int:
     options = arguments().parse_args(words)
     from .errors import TreejetError
 
+    code = 0
     try:
-        return {"view": look, "plot": look, "movie": look, "export": look, "sweep": sweep,
+        expect_one_process()
+        code = {"view": look, "plot": look, "movie": look, "export": look, "sweep": sweep,
                 "converge": converge}[options.word](options)
+        sys.stdout.flush()
+        return code
     except TreejetError as problem:
         print(f"treejet: {problem}", file=sys.stderr)
         return problem.exit_code
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for what is flushed as Python ends
+        return code
     except OSError as problem:
-        print(f"treejet: {problem}", file=sys.stderr)
+        print(f"treejet: {problem.filename}: {problem.strerror}" if problem.filename else f"treejet: {problem}", file=sys.stderr)
         return 4
     except KeyboardInterrupt:
         print("treejet: stopped; the same command goes on", file=sys.stderr)
         return 75
+
+
+def stop_in_time() -> None:
+    """What a batch system or a closing terminal sends ahead of the end stops the runs as Ctrl-C does."""
+    for ahead_of_the_end in (signal.SIGTERM, signal.SIGUSR1, signal.SIGHUP):
+        signal.signal(ahead_of_the_end, signal.default_int_handler)
+
+
+def expect_one_process() -> None:
+    from .errors import InputError
+
+    ranks = next((int(os.environ[name]) for name in ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE") if name in os.environ), 1)
+    if ranks > 1:
+        raise InputError("this command makes processes of its own: start it without mpirun (sweep has --jobs)")
 
 
 def look(options: argparse.Namespace) -> int:
@@ -130,8 +152,7 @@ def sweep(options: argparse.Namespace) -> int:
     if len({name for name, _ in pairs}) < len(pairs):
         raise InputError("--vary: a directive is named twice")
     vary = from_csv(options.list) if options.list else dict(pairs)
-    for ahead_of_the_end in (signal.SIGTERM, signal.SIGUSR1):
-        signal.signal(ahead_of_the_end, signal.default_int_handler)
+    stop_in_time()
     points = sweep(options.deck, vary, options.out, options.jobs, lambda line: print(line, flush=True), options.only)
     if options.only is not None:
         return points[0].exit_code
@@ -149,8 +170,7 @@ def converge(options: argparse.Namespace) -> int:
     from . import converge_write
     from .converge import converge
 
-    for ahead_of_the_end in (signal.SIGTERM, signal.SIGUSR1):
-        signal.signal(ahead_of_the_end, signal.default_int_handler)
+    stop_in_time()
     quantities = [word.strip() for word in options.quantities.split(",") if word.strip()]
     found = converge(options.deck, quantities, options.out, options.accuracy, options.jobs, lambda line: print(line, flush=True),
                      options.patience, **dict(options.lines))

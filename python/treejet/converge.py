@@ -21,7 +21,7 @@ import numpy as np
 
 from . import program
 from .budget import Part, Setting, cheapest, part
-from .errors import InputError
+from .errors import InputError, TreejetError
 from .levels import Direction, directions
 from .means import NO_MEAN, SteadyMean
 from .sweep import STOPPED, Point, sweep
@@ -80,10 +80,13 @@ def converge(deck: Union[str, "os.PathLike[str]"], quantities: "Sequence[str]" =
     given["printstat list"] = " ".join(["t", *keys])
     if "timestep" in values and "print time" not in values:  # 1000 steps, whose length is about to change
         given["print time"] = f"{1000 * float(values['timestep']):.12g}"
+    program.call("check", os.fspath(deck), *itertools.chain.from_iterable(("--set", program.override(*item)) for item in given.items()))
     ways = directions(values)
     settings = _settings(ways)
     vary = [{**given, **setting} for setting in settings.values()]
     base = sweep(deck, vary, out, only=1)[0]
+    if base.exit_code not in (0, STOPPED):
+        raise TreejetError(f"the deck's own run failed: {base.message}", base.exit_code)
     longest = GRACE + patience * seconds(base) if not base.exit_code else None
     runs = dict(zip(settings, sweep(deck, vary, out, jobs, told, walltime=longest)))
     chaotic = _is_chaotic(runs, keys)

@@ -6,6 +6,7 @@ only, with the time, and of a jet of more points than it has room for those near
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -16,6 +17,7 @@ import numpy as np
 
 from .errors import FileError
 
+MOST_LINES = 10**12
 COLUMNS = {"velocity": "cm/s", "stress": "g/(cm s^2)", "charge": "statC", "mass": "g", "radius": "cm"}
 
 
@@ -85,10 +87,13 @@ class H5Frames(Sequence):
         if isinstance(k, slice):
             return [self[i] for i in range(*k.indices(len(self)))]
         k = range(len(self))[k]
-        ids = self._jet["id/value"][k]
-        points = int((ids >= 0).sum())
-        columns, added = ({name: self._jet[f"{name}/value"][k, :points] for name in names}
-                          for names in (("position", *COLUMNS), self.added_units))
+        try:
+            ids = self._jet["id/value"][k]
+            points = int((ids >= 0).sum())
+            columns, added = ({name: self._jet[f"{name}/value"][k, :points] for name in names}
+                              for names in (("position", *COLUMNS), self.added_units))
+        except (OSError, KeyError, ValueError) as problem:
+            raise FileError(f"{self.path}: frame {k} cannot be read: {problem}") from None
         return Frame(time=float(self.times[k]), id=ids[:points], added=added, **columns)
 
 
@@ -109,8 +114,8 @@ class XyzFrames(Sequence):
                 if not count.strip().isdigit() or (comment.endswith("\n") and not time):
                     raise FileError(f"{path}: expected a number of lines, then `t = <seconds>`; found "
                                     f"{count.strip()[:40]!r}, {comment.strip()[:60]!r}")
-                lines = [file.readline() for _ in range(int(count))]
-                if not lines or not lines[-1].endswith(b"\n"):
+                lines = list(itertools.islice(file, min(int(count), MOST_LINES)))
+                if len(lines) < int(count) or not lines or not lines[-1].endswith(b"\n"):
                     break
                 self._room = len(lines)  # constant
                 self._begin.append(begin)

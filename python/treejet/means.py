@@ -30,7 +30,7 @@ from .observables import Observables
 
 BATCH = 5
 SAME = 1e-6  #: relative: a jet that tends to a fixed value without noise is steady once nobody would quote the difference
-NO_MEAN = ("t", "ts", "cpu", "cpue", "cpur", "f", "l")
+NO_MEAN = ("t", "ts", "cpu", "cpue", "cpur", "f", "l", "nref", "nmrg")
 
 
 @dataclass(frozen=True)

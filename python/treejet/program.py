@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import subprocess
 import tempfile
 from pathlib import Path
@@ -32,14 +33,18 @@ def find() -> str:
 
 def call(*arguments: str) -> str:
     """What the program prints, e.g. `call("reference")`; TreejetError with its own message if it fails."""
-    done = subprocess.run([find(), *arguments], capture_output=True, text=True)
+    done = subprocess.run([find(), *arguments], capture_output=True, text=True, errors="replace")
     if done.returncode:
         raise failure(done.stderr, done.returncode)
     return done.stdout
 
 
 def failure(said: str, exit_code: int) -> TreejetError:
-    """The error of a run, from what it said on its way out."""
+    """The error of a run, from what it said on its way out; of one that a signal has ended, 128 and the signal's number."""
+    if exit_code < 0:
+        name = signal.Signals(-exit_code).name
+        why = "; out of memory?" if name == "SIGKILL" else ""
+        return TreejetError(f"treejet was ended by {name}{why}" + (f": {said.strip()}" if said.strip() else ""), 128 - exit_code)
     return TreejetError(said.strip().removeprefix("treejet: ") or f"treejet ended with exit code {exit_code}", exit_code)
 
 

@@ -79,4 +79,7 @@ def read(directory: Union[str, "os.PathLike[str]"]) -> Run:
             record = json.loads((place / "run.json").read_text())
         except ValueError as problem:
             raise FileError(f"{place / 'run.json'}: no record of a run: {problem}") from None
-    return Run(place, record if isinstance(record, dict) else {})
+        segments, deck = (record.get("segments", []), record.get("deck", {})) if isinstance(record, dict) else (None, None)
+        if not isinstance(segments, list) or not isinstance(deck, dict) or not all(isinstance(s, dict) for s in segments):
+            raise FileError(f"{place / 'run.json'}: no record of a run of treejet")
+    return Run(place, record)

@@ -14,6 +14,7 @@ resumed. A point that fails is in the table with its exit code and message and e
 from __future__ import annotations
 
 import csv
+import fcntl
 import itertools
 import json
 import math
@@ -22,8 +23,9 @@ import re
 import signal
 import subprocess
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Callable, Optional, Union
@@ -31,6 +33,7 @@ from typing import Callable, Optional, Union
 import numpy as np
 
 from . import program, units
+from .deck import Deck
 from .ensemble import SEED, named, write_ensembles
 from .errors import FileError, InputError, TreejetError
 from .means import SteadyMean, steady_means
@@ -39,6 +42,7 @@ from .whole_csv import write_csv
 
 FORMAT = "treejet sweep 1"
 STOPPED = 75
+MOST_POINTS = 100_000
 
 
 @dataclass
@@ -70,22 +74,36 @@ def varied(text: str) -> "tuple[str, list[str]]":
     if span is None:
         if ".." in values:
             raise InputError(f"--vary {text!r}: expected `from .. to / count`, e.g. `6 kV .. 14 kV / 9`")
-        return name.strip(), [value.strip() for value in values.split(",")]
+        listed = [value.strip() for value in values.split(",")]
+        _expect_units_alike(text, listed)
+        return name.strip(), listed
     (low, unit), (high, other), count = units.split(span[1]), units.split(span[2]), int(span[3])
     if unit and other and unit != other:
         high = float(units.convert(high, other, unit))
     if count < 2:
         raise InputError(f"--vary {text!r}: expected 2 values at least")
+    if not (math.isfinite(low) and math.isfinite(high)) or count > MOST_POINTS:
+        raise InputError(f"--vary {text!r}: expected finite ends and at most {MOST_POINTS} values")
     if span[4] and not (low > 0 and high > 0):
         raise InputError(f"--vary {text!r}: log needs positive ends")
     numbers = np.geomspace(low, high, count) if span[4] else np.linspace(low, high, count)
     return name.strip(), [f"{number:.12g} {unit or other}".strip() for number in numbers]
 
 
+def _expect_units_alike(text: str, listed: "list[str]") -> None:
+    """Numbers with a unit beside numbers without one are no list that means what it says: 6, 9, 12 kV; 40,5 mN/m."""
+    try:
+        bare = [not units.split(value)[1] for value in listed]
+    except InputError:
+        return  # words
+    if any(bare) and not all(bare):
+        raise InputError(f"--vary {text!r}: expected a unit behind each number of the list, or behind none (a decimal point, no comma)")
+
+
 def from_csv(path: Path) -> "list[dict[str, str]]":
     """Points from a table with a header of directives, e.g. `external potential,viscosity`."""
     try:
-        with open(path, newline="", encoding="utf-8") as file:
+        with open(path, newline="", encoding="utf-8-sig") as file:
             found = list(csv.DictReader(file, restkey=""))
     except OSError as problem:
         raise FileError(f"{path}: {problem.strerror}") from None
@@ -93,6 +111,8 @@ def from_csv(path: Path) -> "list[dict[str, str]]":
         raise InputError(f"{path}: is no text in UTF-8") from None
     # a row longer than the header has a list under no name
     rows = [{(k or "").strip(): v.strip() if isinstance(v, str) else "" for k, v in row.items()} for row in found]
+    if rows and any(";" in name for name in rows[0]):
+        raise InputError(f"{path}: expected commas between columns, found semicolons in the header")
     if not rows or any("" in row or "" in row.values() for row in rows):
         raise InputError(f"{path}: expected a header of directives and rows of as many values")
     return rows
@@ -105,6 +125,9 @@ def grid(vary: Mapping[str, Sequence[object]]) -> "list[dict[str, str]]":
     [{'viscosity': '10', 'gravity': 'yes'}, {'viscosity': '20', 'gravity': 'yes'}]
     """
     names = [name.replace("_", " ") for name in vary]
+    for name, values in vary.items():
+        if isinstance(values, str):
+            raise InputError(f"{name}: expected a list of values, found {values!r}")
     return [dict(zip(names, map(program.word, values))) for values in itertools.product(*vary.values())]
 
 
@@ -127,7 +150,8 @@ class Stop:
         with self._lock:
             if self.asked.is_set():
                 return None
-            run = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            run = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                                   errors="replace")
             self._running.add(run)
         said = run.communicate()[1]
         with self._lock:
@@ -155,13 +179,15 @@ def sweep(deck: Union[str, "os.PathLike[str]"],
     points = [Point(k, values, place / f"{k:0{digits}d}") for k, values in enumerate(settings, 1)]
     if only is not None and not 1 <= only <= len(points):
         raise InputError(f"a sweep of {len(points)} points has no point {only}")
+    if not (place / "sweep.json").exists():
+        _expect_runnable(source, text, points)
     _claim(place, text, settings)
     points = points if only is None else [points[only - 1]]
-    say = told or (lambda line: None)
+    say = _unless_nobody_listens(told)
     threads = max(1, (len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1) // jobs)
     shared = set.intersection(*(set(setting.items()) for setting in settings)) if len(settings) > 1 else set()
     stop = Stop()
-    with ThreadPoolExecutor(jobs) as pool:
+    with _locked(place / "sweep.json", alone=only is None), ThreadPoolExecutor(jobs) as pool:
         futures = [pool.submit(_finish, point, source, threads, stop, walltime) for point in points]
         try:
             for point, future in zip(points, futures):
@@ -171,11 +197,52 @@ def sweep(deck: Union[str, "os.PathLike[str]"],
         except KeyboardInterrupt:
             stop.ask()
             raise
-    if only is None:
-        write_table(place / "sweep.csv", points)
-        if SEED in named(points):
-            write_ensembles(place / "seeds.csv", points)
+        if only is None:
+            write_table(place / "sweep.csv", points)
+            if SEED in named(points):
+                write_ensembles(place / "seeds.csv", points)
     return points
+
+
+def _expect_runnable(source: Path, text: str, points: "list[Point]") -> None:
+    """Before a directory is claimed and hours are spent: all leave means behind, and the program knows what is varied."""
+    for point in points:
+        deck = Deck(text, point.overrides())
+        if not deck.get("printstat list") and not (deck.get("print hdf5") and deck.get("print list")):
+            raise InputError(f"{source}: a sweep takes its means from tables; let the deck say `printstat list t x ...`")
+    lines = [word for line in points[0].overrides() for word in ("--set", line)] if points else []
+    try:
+        program.call("check", str(source), *lines)
+    except TreejetError as problem:
+        if "unknown directive" in str(problem):  # of all points; what is wrong with one alone ends no other
+            raise
+
+
+def _unless_nobody_listens(told: Optional[Callable[[str], None]]) -> Callable[[str], None]:
+    """What has been closed, as by `| head`, ends no sweep."""
+
+    def say(line: str) -> None:
+        nonlocal told
+        try:
+            if told:
+                told(line)
+        except BrokenPipeError:
+            told = None
+
+    return say
+
+
+@contextmanager
+def _locked(record: Path, alone: bool) -> "Iterator[None]":
+    """One process runs a whole sweep, or any number of them points of their own (`only`)."""
+    with open(record) as file:
+        try:
+            fcntl.flock(file, (fcntl.LOCK_EX if alone else fcntl.LOCK_SH) | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise FileError(f"{record.parent}: another sweep is running there") from None
+        except OSError:
+            pass  # a file system without locks
+        yield
 
 
 def _deck_text(deck: Path) -> str:
@@ -222,8 +289,8 @@ def _finish(point: Point, deck: Path, threads: int, stop: Stop, walltime: Option
             point.exit_code, point.message = STOPPED, "not begun"
             return
         if done[0]:
-            point.exit_code = done[0]
-            point.message = str(program.failure(done[1], done[0]))
+            failure = program.failure(done[1], done[0])
+            point.exit_code, point.message = failure.exit_code, str(failure)
     try:
         table = point.run.observables
         point.units = table.units

@@ -36,7 +36,8 @@ def abscissa(points: "list[Point]", name: str) -> "tuple[list[float], str]":
 def draw(points: "list[Point]", target: Path) -> Optional[Path]:
     """The first directive is the abscissa, the others tell the lines apart; open marks are not steady."""
     done = [point for point in points if point.means]
-    keys = [key for key in (done[0].means if done else ()) if any(math.isfinite(p.means[key].mean) for p in done)]
+    keys = [key for key in (done[0].means if done else ())
+            if all(key in p.means for p in done) and any(math.isfinite(p.means[key].mean) for p in done)]
     if not keys:
         return None
     name, *others = named(points)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string_view>
@@ -49,7 +50,8 @@ std::array<std::size_t, 4> columns(const std::string& file, std::string_view hea
 
 PointTable read_points(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw FileError("cannot read " + file);
+  std::error_code error;
+  if (!in || std::filesystem::is_directory(file, error)) throw FileError("cannot read " + file);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   PointTable table;
   std::array<std::size_t, 4> place{};

@@ -2,9 +2,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/jet/observer.hpp"
 #include "core/jet/scales.hpp"
 #include "integrators/run/cost_estimate.hpp"
-#include "validation/support/example.hpp"
+#include "integrators/run/trial_run.hpp"
+#include "validation/support/run.hpp"
 
 using namespace treejet;
 
@@ -37,6 +39,23 @@ TEST_CASE("A trial that could not end, or would not fit into memory, is refused 
   // 4 kB a bead: 410 GB
   CHECK_THROWS_WITH(expect_feasible_trial(beads("points 100000000", "coulomb auto")),
                     Catch::Contains("1e+08 beads at the start need up to 410 GB"));
+}
+
+TEST_CASE("A trial tells when the first bead arrived, not when it looked next") {
+  const Parameters p = with_tolerance(example("pvp", {"collector distance 0.3"}), 1e-6);
+  struct Arrival final : Observer<3> {
+    void event(EventKind kind, const Jet<3>& jet) override {
+      if (kind == EventKind::removal && !at) at = jet.t;
+    }
+    std::optional<double> at;
+  } arrival;
+  Run<3> whole(p), tried(p);
+  whole.to(0.008, {&arrival});
+  REQUIRE(arrival.at);
+  const Trial found = trial_run<3>(p, system(tried.scene), /*seconds*/ 0.5);
+  REQUIRE(found.first_arrival);
+  CHECK(*found.first_arrival == *arrival.at);
+  CHECK(*plan(p, found, true).first_arrival == *arrival.at * whole.unit.time);
 }
 
 TEST_CASE("A plan is a trial's rates carried on to the end, also if the machine stalled in the trial") {

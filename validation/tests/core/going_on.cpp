@@ -262,18 +262,16 @@ TEST_CASE("The tables of a begun run know no speed of release before the first, 
   const auto as_whole = rows(whole.path), as_begun = rows(begun.path);
   REQUIRE(as_begun.size() > 40);
   std::size_t unknown = 0, alike = 0;
-  double landed_whole = 0, landed_begun = 0;
   for (const auto& [t, found] : as_begun) {
     if (std::strtod(t.c_str(), nullptr) <= 7e-3) continue;
     const auto& [vn, fcc] = as_whole.at(t);
     unknown += std::isnan(found.first);
     if (!std::isnan(found.first)) alike += found.first == vn;
-    landed_whole += fcc, landed_begun += found.second;
+    // a bead's way is about that of the one before it, and rows in which one arrives have parts of both
+    CHECK(found.second == Approx(fcc).epsilon(0.2));
   }
   CHECK(unknown > 0);  // until one is released
   CHECK((alike > 20 && alike + unknown + 1 >= as_begun.size() - 1));
-  // the first bead, one of some twenty, has an unknown part of its way behind it
-  CHECK(landed_begun == Approx(landed_whole).epsilon(0.05));
 }
 
 TEST_CASE("A jet that another run begins with is the same in CGS, whatever the new deck's scales") {

@@ -299,6 +299,7 @@ TEST_CASE("Charge is fed and lands without steps, and as much as by whole beads 
 
 TEST_CASE("A nozzle that inserts nothing feeds no current, not even as the jet leaves it") {
   Parameters p = uniform_motion();
+  p.density_charge = 1e-6;  // counted, and too small to push
   Run<3> run(p);
   const auto r = recorded<3>(run, {"fcn", "curn"}, 1e-2, 0.3);
   REQUIRE(r.size() > 10);

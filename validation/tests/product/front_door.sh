@@ -43,6 +43,10 @@ expect 4 "a run over existing results" short --out a
 cmp -s before a/statdat.dat || fail "existing results were touched"
 grep -q -- --force err || fail "the message does not tell of --force"
 expect 0 "a run with --force" short --out a --force
+expect 0 "a run with frames" short --set "print hdf5 1.d-4" --out replaced
+touch replaced/traj.gsd
+expect 0 "one without in its place" short --out replaced --force
+is "files where a run has replaced another" "$(ls replaced | tr '\n' ' ')" "checkpoint.end run.json statdat.dat traj.gsd traj.xyz "
 cmp -s before a/statdat.dat || fail "the same run gave other numbers"
 
 expect 0 "a quiet run" short --out quiet --quiet
@@ -98,15 +102,18 @@ long() { "$treejet" run "$pvp" --quiet --set "final time 4.d-2" --set "print tim
 begun() { until [ -e "$1/statdat.dat" ] && [ "$(grep -vc "^#" "$1/statdat.dat")" -gt 9 ]; do sleep 0.01; done; }
 same() { for file in statdat.dat traj.xyz; do cmp -s "whole/$file" "$1/$file" || fail "$file of $2 differs from the uninterrupted run's"; done; }
 
-# disturbed DIRECTORY COMMAND: the exit code of such a run; once more if it ended before the command came, as on a busy machine
+# disturbed DIRECTORY COMMAND [ARGUMENT...]: the exit code of such a run; once more if it ended before the command came, as on a busy machine
 disturbed() {
   for attempt in 1 2 3 4 5; do
     rm -rf "$1"
     # a background job of sh starts with SIGINT ignored, which the program respects
-    env --default-signal=INT "$treejet" run "$pvp" --quiet --set "final time 4.d-2" --set "print time 1.d-4" --set "print xyz 2.d-4" --out "$1" 2>err &
+    place=$1 command=$2
+    shift 2
+    env --default-signal=INT "$treejet" run "$pvp" --quiet --set "final time 4.d-2" --set "print time 1.d-4" --set "print xyz 2.d-4" "$@" --out "$place" 2>err &
     run=$!
-    begun "$1"
-    eval "$2" 2>/dev/null
+    begun "$place"
+    eval "$command" 2>/dev/null
+    set -- "$place" "$command" "$@"
     wait $run && continue
     return $?
   done
@@ -123,6 +130,8 @@ for signal in TERM USR1 INT; do
   same $signal "a run stopped by $signal"
   is "files of a run stopped by $signal" "$(ls $signal | tr '\n' ' ')" "checkpoint.end run.json statdat.dat traj.xyz "
 done
+disturbed frames 'kill -TERM $run' --set "print hdf5 2.d-4"
+is "files of a stopped run with frames" "$(ls frames | tr '\n' ' ')" "checkpoint run.json statdat.dat traj.h5 traj.xdmf traj.xyz "
 expect 0 "resuming a run that has ended" "$treejet" run --resume TERM
 grep -q 'already at its end' out || fail "resuming a run that has ended does not say so: $(cat out)"
 
@@ -141,6 +150,22 @@ expect 2 "an error estimate of a run that had begun with another jet and goes on
 grep -q 'begins with\|began with' err || fail "the message does not tell with what the run began: $(cat err)"
 expect 2 "beginning where the other run is" "$treejet" run "$pvp" --out source --from source --force
 diff -r whole source >/dev/null || fail "a refused run changed the one it was to begin with"
+
+# A run finds its field map again from wherever it is resumed.
+mkdir maps
+awk 'BEGIN {
+  print "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\">"
+  print "<ImageData WholeExtent=\"0 5 0 5 0 5\" Origin=\"-0.05 -0.1 -0.1\" Spacing=\"0.06 0.04 0.04\">"
+  print "<Piece Extent=\"0 5 0 5 0 5\"><PointData><DataArray type=\"Float64\" Name=\"potential\" format=\"ascii\">"
+  for (n = 0; n < 216; ++n) print 9000 - 56250 * (-0.05 + 0.06 * (n % 6))
+  print "</DataArray></PointData></Piece></ImageData></VTKFile>"
+}' >maps/plates.vti
+sed 's/^external potential.*/field map plates.vti/; s/^final time.*/final time 1.d-2/' "$pvp" >maps/jet.dat
+(cd maps && exec "$treejet" run jet.dat --quiet --walltime 0.05 --out ../mapped 2>../err)
+is "exit code of a run in a field map that is stopped" $? 75
+expect 0 "resuming it from elsewhere" "$treejet" run --resume mapped --quiet
+expect 4 "a map that is not there" "$treejet" run maps/jet.dat --quiet --out unmapped
+grep -q "$PWD/plates.vti" err || fail "the message does not tell where the map was looked for: $(cat err)"
 
 # What is going on in a directory is left alone by a second run there, whatever it asks for.
 "$treejet" run "$pvp" --quiet --set "checkpoint 0.1" --set "tolerance 1.d-12" --out going &

@@ -8,6 +8,7 @@ import zlib
 import h5py
 import numpy as np
 import pytest
+import treejet
 
 ID = "particles/jet/id/value"
 
@@ -129,3 +130,13 @@ def test_chunks_of_the_newest_form_are_refused_with_what_rewrites_them(jet, tmp_
     rewritten(jet.directory / "traj.h5", tmp_path / "traj.h5", chunks=True)
     done = subprocess.run([os.environ["TREEJET"], "info", str(tmp_path / "traj.h5")], capture_output=True, text=True)
     assert done.returncode == 4 and "h5repack OLD NEW" in done.stderr
+
+
+def test_damaged_records_and_endless_frames_are_failures_of_files(jet, tmp_path):
+    for name, text in (("run.json", '{"segments": 3}'), ("run.json", '{"deck": "x"}'), ("run.json", "[1]"),
+                       ("traj.xyz", "99999999999\nt = 0 s  beads = 2\nC 0 0 0\n")):
+        place = tmp_path / f"{len(list(tmp_path.iterdir()))}"
+        place.mkdir()
+        (place / name).write_text(text)
+        with pytest.raises(treejet.FileError):
+            _ = treejet.read(place).frames[0] if name == "traj.xyz" and len(treejet.read(place).frames) else treejet.read(place).observables

@@ -165,3 +165,64 @@ def test_a_list_whose_rows_do_not_fit_its_header_or_that_is_no_text_is_refused(t
     (tmp_path / "list.csv").write_bytes(text)
     with pytest.raises(treejet.InputError):
         from_csv(tmp_path / "list.csv")
+
+
+@pytest.mark.parametrize("text", ["external potential: 6, 9, 12 kV", "surface tension: 40,5 mN/m, 50,5 mN/m", "viscosity: 1e400 .. 2 / 3",
+                                  "viscosity: 1 .. 2 / 1000000000"])
+def test_a_list_that_does_not_say_what_it_seems_to_is_refused(text):
+    with pytest.raises(treejet.InputError):
+        varied(text)
+
+
+def test_a_string_is_no_list_of_values(quick, tmp_path):
+    with pytest.raises(treejet.InputError, match="expected a list of values, found '10'"):
+        treejet.sweep(quick, {"viscosity": "10"}, tmp_path / "word")
+
+
+def test_a_table_from_a_spreadsheet_is_read_or_told_what_it_lacks(tmp_path):
+    (tmp_path / "bom.csv").write_bytes(b"\xef\xbb\xbfviscosity,gravity\r\n3 Pa s,yes\r\n")
+    assert from_csv(tmp_path / "bom.csv") == [{"viscosity": "3 Pa s", "gravity": "yes"}]
+    (tmp_path / "semicolons.csv").write_text("viscosity;gravity\n3 Pa s;yes\n")
+    with pytest.raises(treejet.InputError, match="semicolons"):
+        from_csv(tmp_path / "semicolons.csv")
+
+
+def test_what_no_point_could_do_is_refused_before_the_directory_is_claimed(quick, tmp_path):
+    (tmp_path / "mute.dat").write_text("".join(line for line in quick.read_text().splitlines(True) if "printstat" not in line))
+    with pytest.raises(treejet.InputError, match="printstat list"):
+        treejet.sweep(tmp_path / "mute.dat", {"viscosity": [10, 20]}, tmp_path / "out")
+    with pytest.raises(treejet.TreejetError, match="unknown directive"):
+        treejet.sweep(quick, {"viscosty": [10, 20]}, tmp_path / "out")
+    with pytest.raises(treejet.TreejetError) as refused:
+        treejet.converge(quick, ["nonsense"], tmp_path / "out")
+    assert refused.value.exit_code == 2 and not (tmp_path / "out" / "sweep.json").exists()
+
+
+def test_a_run_that_a_signal_has_ended_has_the_code_of_a_shell(quick, tmp_path):
+    found, words = [], [treejet.find(), "sweep", quick, "--vary", "final time: 100", "--out", tmp_path / "long"]
+    whole = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    while not found and whole.poll() is None:
+        time.sleep(0.05)
+        found = subprocess.run(["pgrep", "-f", f"run .*{tmp_path / 'long' / '001'}"], capture_output=True, text=True).stdout.split()
+    os.kill(int(found[0]), signal.SIGKILL)
+    whole.communicate(timeout=60)
+    assert whole.returncode == 128 + signal.SIGKILL
+    row = table(tmp_path / "long")[0]
+    assert row["exit code"] == "137" and "SIGKILL" in row["message"]
+
+
+def test_who_has_stopped_listening_still_gets_the_table(quick, tmp_path):
+    words = f"{treejet.find()} sweep {quick} --vary 'viscosity: 10 .. 30 / 3' --out {tmp_path / 'quiet'}; echo $? >{tmp_path / 'code'}"
+    subprocess.run(f"({words}) | head -n 1", shell=True, check=True, stdout=subprocess.DEVNULL)
+    assert (tmp_path / "code").read_text() == "0\n" and len(table(tmp_path / "quiet")) == 3
+
+
+def test_a_sweep_is_run_by_one_process_without_mpirun(quick, tmp_path):
+    words = [treejet.find(), "sweep", quick, "--vary", "viscosity: 10 .. 40 / 4", "--out", tmp_path / "one"]
+    refused = subprocess.run(words, env={**os.environ, "OMPI_COMM_WORLD_SIZE": "2"}, capture_output=True, text=True)
+    assert refused.returncode == 2 and "without mpirun" in refused.stderr
+    both = [subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for _ in range(2)]
+    ended = [(run.communicate(timeout=120)[1], run.returncode) for run in both]
+    assert sorted(code for _, code in ended) in ([0, 4], [0, 0])  # or the second began after the first had ended
+    assert all("another sweep is running there" in said for said, code in ended if code == 4)
+    assert [row["exit code"] for row in table(tmp_path / "one")] == ["0"] * 4
