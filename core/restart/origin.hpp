@@ -14,9 +14,9 @@
 /// columns that the new scene adds must be there. The other run is left as it is. Where only outputs, final
 /// time and checkpoints differ, a checkpoint also gives the history of the steps, and the jet goes on to the
 /// bit as the other one would. What the tables sum up begins anew: fcn and fcc, differences of sums since the
-/// start, may round otherwise, fcc estimates where its first bead was when the last one arrived, and vn is not a number until
-/// one is released. Either run may hold its jet in subdomains: its steps go on if both do, to the bit on as many ranks. Each rank of
-/// the new one reads the whole state once.
+/// start, may round otherwise, fcc estimates where its first bead was when the last one arrived, and vn is
+/// not a number until one is released. Either run may hold its jet in subdomains: its steps go on if both do,
+/// to the bit on as many ranks. Each rank of the new one reads the whole state once.
 ///
 /// Errors: FileError if there is no such state, InputError if the deck cannot begin with it.
 

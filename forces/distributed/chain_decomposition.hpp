@@ -9,8 +9,7 @@
 /// that hold them their own, of the others copies. Insertion adds to the subdomain at the nozzle, removal
 /// takes from that at the collector, and as every rank sees both, all know all counts without asking. When a
 /// subdomain has grown a fifth beyond its share, or that at the collector is down to one bead, the chain is
-/// cut anew. Subdomains have at least four beads, but for one: in a short chain some
-/// ranks have none.
+/// cut anew. Subdomains have at least four beads, but for one: in a short chain some ranks have none.
 ///
 /// Files and checkpoints get the chain in portions, which the ranks hand to the first one in turn: it holds
 /// no more than one at a time beside its own subdomain. A checkpoint may be read by any number of ranks, each

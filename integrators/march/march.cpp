@@ -67,6 +67,7 @@ void March<D>::give_up() const {
   if (error.rows() > 0 && of_these) most = error.abs().rowwise().maxCoeff().maxCoeff(&bead);
   const bool mine = !(all.greatest(most) > most);
   const auto number_of = [&](Eigen::Index row) {
+    if (jet_.size() == 0) return jet_.removed;
     return fast_region_ ? number(fast_region_->jet.id, fast_region_->jet.removed, row)
                         : all.numbers(jet_)[row];
   };

@@ -1,8 +1,8 @@
 #pragma once
 /// Physics that a program of somebody else's adds to that of a deck: forces, columns of the state,
 /// observables. Multirate, subdomains, checkpoints and outputs treat forces and columns as they treat what is
-/// ours; observables need `parallel replicated`, as they see the whole jet. All files of such a run give the version as `0.1.0 with physics of its own: NAME`, and only the same program resumes
-/// it.
+/// ours; observables need `parallel replicated`, as they see the whole jet. All files of such a run give the
+/// version as `0.1.0 with physics of its own: NAME`, and only the same program resumes it.
 
 #include <functional>
 #include <string>
