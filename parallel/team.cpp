@@ -8,9 +8,10 @@ constexpr std::uint64_t one_job = std::uint64_t{1} << 32;
 /// Of the end of the team. It is told in the word that threads sleep on: with a flag beside it a thread that
 /// has looked at the flag already, not yet at the job, would sleep for ever.
 constexpr std::uint64_t over = ~std::uint64_t{0};
-/// Looks at what is waited for, others being let go ahead, before a thread sleeps: ten microseconds or so
-/// where nobody else wants the core.
-constexpr int looks = 20;
+/// Looks at what is waited for, others being let go ahead, before a thread sleeps: half a millisecond where
+/// nobody else wants the core. To wake a core that has gone idle takes longer than most pauses between jobs,
+/// on a virtual machine most of all: with 20 looks two threads took 1.1 times as long (1e5 beads, by turns).
+constexpr int looks = 2000;
 
 std::uint64_t job(std::uint64_t job_and_task) {
   return job_and_task / one_job;

@@ -5,7 +5,7 @@
 /// not: where cores are shared with other programs, a thread that gets no core holds nobody up, as it would
 /// at the barrier of a parallel region. (OpenMP's, which spins ahead of it, took 6 to 16 times as long with
 /// two threads as with one on a machine with 18 runnable processes a core; this takes as long.) Waiting
-/// threads look for new tasks for some microseconds, in which the next are likely to come, and then sleep.
+/// threads look for new tasks for half a millisecond, in which the next are likely to come, and then sleep.
 
 #include <atomic>
 #include <cstdint>
