@@ -74,13 +74,12 @@ def converge(deck: Union[str, "os.PathLike[str]"], quantities: "Sequence[str]" =
     if not 0 < accuracy < 1:
         raise InputError("expected a relative accuracy between 0 and 1, as 0.01")
     given = {name.replace("_", " "): program.word(value) for name, value in overrides.items()}
-    lines = itertools.chain.from_iterable(("--set", program.override(*item)) for item in given.items())
-    values = json.loads(program.call("check", os.fspath(deck), "--json", *lines))["directives"]
+    values = _directives(deck, given)
     keys = _keys(values, quantities)
     given["printstat list"] = " ".join(["t", *keys])
     if "timestep" in values and "print time" not in values:  # 1000 steps, whose length is about to change
         given["print time"] = f"{1000 * float(values['timestep']):.12g}"
-    program.call("check", os.fspath(deck), *itertools.chain.from_iterable(("--set", program.override(*item)) for item in given.items()))
+    _directives(deck, given)  # refused before a run is begun
     ways = directions(values)
     settings = _settings(ways)
     vary = [{**given, **setting} for setting in settings.values()]
@@ -92,6 +91,12 @@ def converge(deck: Union[str, "os.PathLike[str]"], quantities: "Sequence[str]" =
     chaotic = _is_chaotic(runs, keys)
     budgets = {key: _budget(key, runs, ways, accuracy, chaotic) for key in keys}
     return Convergence(os.fspath(deck), accuracy, budgets, ways, runs, chaotic)
+
+
+def _directives(deck: Union[str, "os.PathLike[str]"], given: Mapping[str, str]) -> "dict[str, str]":
+    """Those in force, as the program reads the deck."""
+    lines = itertools.chain.from_iterable(("--set", program.override(*item)) for item in given.items())
+    return json.loads(program.call("check", os.fspath(deck), "--json", *lines))["directives"]
 
 
 def _keys(values: Mapping[str, str], quantities: "Sequence[str]") -> "list[str]":

@@ -2,8 +2,9 @@
 
 A grid is the product of what is varied; a list comes from a CSV file whose header names directives. DIR/sweep.json
 holds deck and points; DIR/001, 002, ... the runs; DIR/sweep.csv the steady means of each with their standard errors
-(means.py), where `seed` is varied DIR/seeds.csv those over all seeds (ensemble.py); DIR/sweep.png draws them. A sweep that was interrupted goes on: finished points are left alone, stopped ones
-resumed. A point that fails is in the table with its exit code and message and ends no other.
+(means.py), where `seed` is varied DIR/seeds.csv those over all seeds (ensemble.py); DIR/sweep.png draws them.
+A sweep that was interrupted goes on: finished points are left alone, stopped ones resumed. A point that fails is in the
+table with its exit code and message and ends no other.
 
 >>> varied("external potential: 6 kV .. 14 kV / 5")
 ('external potential', ['6 kV', '8 kV', '10 kV', '12 kV', '14 kV'])
@@ -97,7 +98,8 @@ def _expect_units_alike(text: str, listed: "list[str]") -> None:
     except InputError:
         return  # words
     if any(bare) and not all(bare):
-        raise InputError(f"--vary {text!r}: expected a unit behind each number of the list, or behind none (a decimal point, no comma)")
+        raise InputError(f"--vary {text!r}: expected a unit behind each number of the list, or behind none "
+                         "(a decimal point, no comma)")
 
 
 def from_csv(path: Path) -> "list[dict[str, str]]":
